@@ -123,6 +123,18 @@ local function vec(...: any): Vector
   return from_others(...)
 end
 
+--- Creates a vector from a `radius` (m), an `angle` (degrees) from the x axis towards the y axis, and a height `z` (m, 0 unless
+--- given).
+local function polar(radius: number, angle: number, z: number?): Vector
+  local height = z or 0
+  check_numbers("polar", radius, angle, height)
+  if radius - radius + (angle - angle) + (height - height) ~= 0 then
+    refuse("polar takes finite numbers", "write polar(radius, angle, z), with the angle in degrees")
+  end
+  local turn = math.rad(angle)
+  return made(radius * math.cos(turn), radius * math.sin(turn), height)
+end
+
 --- Returns both operands of an operator as vectors; a list becomes a vector.
 local function vectors(a, b, operator: string)
   local function one(value)
@@ -664,6 +676,7 @@ names.Cut = module("Cut")
 __cut("Cut")
 
 names.vec = vec
+names.polar = polar
 names.lerp = lerp
 names.remap = remap
 names.ease = ease

@@ -69,7 +69,9 @@ local function windows(wall: string, glass: string, wide: number, gap: number): 
     height = { 1.6, 2, 2.4 },
   })
   local cell = bordered(face, { left = gap, right = gap, bottom = 0.7, top = 0.5 })
-  return facade({ template({ wall = grid(cell), material = { color = wall } }) })
+  -- Walls that are too narrow for a window stay plain.
+  local plain = template({ wall = panel({}), weight = 0, material = { color = wall } })
+  return facade({ template({ wall = grid(cell), material = { color = wall } }), plain })
 end
 local styles = {
   windows("#d9cdb8", "#4a5a62", 1.3, 0.6),

@@ -60,20 +60,25 @@ pub(crate) fn warnings_json(warnings: &[Warning]) -> serde_json::Value {
     warnings.iter().map(warning).collect()
 }
 
-/// Returns the line of an error's location, also in a script on standard input.
-fn error_excerpt(error: &Error) -> Option<Excerpt> {
-    match text_in_memory(&error.place()?.file) {
-        Some(text) => error.excerpt_of(&text),
-        None => error.excerpt(),
+/// Returns the line of the location of an error or a warning. `in_memory` reads it in the text of a script on standard input,
+/// `on_disk` in its file.
+fn excerpt_at(
+    place: Option<&SourcePlace>,
+    in_memory: impl FnOnce(&str) -> Option<Excerpt>,
+    on_disk: impl FnOnce() -> Option<Excerpt>,
+) -> Option<Excerpt> {
+    match text_in_memory(&place?.file) {
+        Some(text) => in_memory(&text),
+        None => on_disk(),
     }
 }
 
-/// Returns the line of a warning's location, also in a script on standard input.
+fn error_excerpt(error: &Error) -> Option<Excerpt> {
+    excerpt_at(error.place(), |text| error.excerpt_of(text), || error.excerpt())
+}
+
 fn warning_excerpt(warning: &Warning) -> Option<Excerpt> {
-    match text_in_memory(&warning.place()?.file) {
-        Some(text) => warning.excerpt_of(&text),
-        None => warning.excerpt(),
-    }
+    excerpt_at(warning.place(), |text| warning.excerpt_of(text), || warning.excerpt())
 }
 
 /// Adds the severity and the columns of an error or a warning to its JSON.

@@ -7,7 +7,7 @@ use std::time::Instant;
 use burgeon::export::{self, Format, PNG};
 use burgeon::scene::image;
 use burgeon::variations::{Framing, SheetLayout, Variation, VariationAxis, Variations, sheet};
-use burgeon::{Error, Result, Warning};
+use burgeon::{Error, Result, Warning, WarningKind};
 use clap::{ArgGroup, Args, ValueEnum};
 use serde_json::json;
 
@@ -111,6 +111,7 @@ impl VariationsCommand {
                 "rows": layout.rows,
                 "size": layout.size,
                 "cells": told,
+                "warnings": report::warnings_json(equal_pictures(&cells).as_slice()),
                 "seconds": { "total": seconds },
             });
             report::print(&format!("{document}\n"))?;
@@ -135,10 +136,7 @@ impl VariationsCommand {
                 warnings.push(warning);
             }
         }
-        report::eprint(&report::warnings(warnings));
-        if let Some(text) = equal_pictures(cells) {
-            report::eprint(&text);
-        }
+        report::eprint(&report::warnings(warnings.into_iter().chain(&equal_pictures(cells))));
         let failed = cells.iter().filter(|cell| cell.made.is_err()).count();
         let failed = if failed > 0 { format!(", {failed} of them failed") } else { String::new() };
         report::eprint(&format!(
@@ -171,19 +169,19 @@ fn refuse_if_all_failed(cells: &[Variation]) -> Result<()> {
 }
 
 /// Returns the warning for several variations with equal pictures, although their seeds differ.
-fn equal_pictures(cells: &[Variation]) -> Option<String> {
-    let mut pictures = cells.iter().filter_map(|cell| cell.made.as_ref().ok()).map(|made| &made.picture);
-    let first = pictures.next()?;
-    let (mut others, mut count) = (pictures, 1);
-    let are_equal = others.all(|picture| {
-        count += 1;
-        picture == first
-    });
-    let seeds_only = cells.iter().all(|cell| cell.set.is_none());
-    (are_equal && count > 1 && seeds_only).then(|| {
-        format!(
-            "warning: the {count} pictures are equal\n  help: draw random numbers with random(), and give lsystem no seed of its own\n"
-        )
+fn equal_pictures(cells: &[Variation]) -> Option<Warning> {
+    let made: Vec<_> = cells.iter().filter_map(|cell| cell.made.as_ref().ok()).collect();
+    let (first, others) = made.split_first()?;
+    let are_equal = others.iter().all(|other| other.picture == first.picture);
+    if !are_equal || others.is_empty() || cells.iter().any(|cell| cell.set.is_some()) {
+        return None;
+    }
+    let equal = format!("the {} pictures are equal", made.len());
+    Some(match first.seeded.first() {
+        Some(place) => Warning::new(WarningKind::NoEffect, format!("{equal}: lsystem has its own `seed`"))
+            .at_place(Some(place))
+            .help("remove `seed` from lsystem, so that each run has another"),
+        None => Warning::new(WarningKind::NoEffect, equal).help("draw random numbers with random()"),
     })
 }
 

@@ -1,6 +1,7 @@
 //! Errors for facades that can never fit or have wrong arguments, at the line that creates them.
 
 use crate::support::*;
+use crate::warnings::silent;
 
 /// Returns the error message for a script that ends with `expression`, without the script line.
 fn told(expression: &str) -> String {
@@ -179,4 +180,24 @@ fn walls_within_walls_without_end_are_refused() {
       |             ^^^^
       help: use at most 500, or repeat a wall with grid
     ");
+}
+
+#[test]
+fn a_wall_that_no_template_fits_warns_unless_the_script_has_a_plain_template() {
+    let house = |templates: &str| {
+        format!(
+            "local high = panel({{ height = {{ 5, 6 }} }})\nlocal House = module(\"House\")\n\
+             local s = lsystem({{ object = footprint({{ {{ 0, 0 }}, {{ 8, 0 }}, {{ 8, 8 }} }}) }})\n\
+             s:axiom(House())\ns:interpret(\"House\", function(this)\n  \
+             this:walls({{ height = 3, templates = {templates} }}):roof()\nend)\ns:derive()\n"
+        )
+    };
+    insta::assert_snapshot!(Folder::new().with("s.lua", house("template(high)")).warned(&["run", "s.lua"]), @r"
+    warning: s.lua:6:8: rule House (interpretation): footprint:walls: no template fits a frontage, so its wall stays plain
+      | this:walls({ height = 3, templates = template(high) }):roof()
+      |      ^^^^^
+      module: House, step 0
+      help: the first is 8.00 m wide and 3.00 m high: allow this size in a template, or give a template that fits all sizes, such as template(panel({}), { weight = 0 }); --report FILE lists the others
+    ");
+    silent(&[&house("{ template(high), template(panel({}), { weight = 0 }) }")]);
 }

@@ -50,6 +50,7 @@ mod setup;
 mod shapes;
 mod shared_values;
 mod short_forms;
+mod silent_faults;
 mod slips;
 mod stores;
 mod streams;

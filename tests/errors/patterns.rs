@@ -132,11 +132,11 @@ fn a_function_with_more_parameters_than_the_pattern_gives_is_refused() {
 #[test]
 fn a_malformed_pattern_shows_the_place() {
     assert_snapshot!(pattern("A((x)"), @r#"
-    error: s.lua:3:1: malformed pattern: unexpected '(' at character 3
+    error: s.lua:3:11: malformed pattern: unexpected '(' at character 3
         A((x)
           ^
       | s:rule("A((x)", function() return B() end)
-      | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
+      |           ^
       help: expected a parameter's name or a value
     "#);
     assert_snapshot!(pattern("A(x) > B [ B"), @r#"
@@ -148,11 +148,11 @@ fn a_malformed_pattern_shows_the_place() {
       help: this branch is not closed
     "#);
     assert_snapshot!(pattern("A(x) > B > B"), @r#"
-    error: s.lua:3:42: malformed pattern: unexpected '>' at character 10
+    error: s.lua:3:18: malformed pattern: unexpected '>' at character 10
         A(x) > B > B
                  ^
       | s:rule("A(x) > B > B", function() return B() end)
-      |                                          ^
+      |                  ^
       help: a pattern is: left context < predecessor > right context; contexts in the new chain stand outside of these: new left << left < predecessor > right >> new right
     "#);
     assert_snapshot!(pattern("A(x) > []"), @r#"
@@ -164,27 +164,27 @@ fn a_malformed_pattern_shows_the_place() {
       help: a branch in a context must contain at least one module
     "#);
     assert_snapshot!(pattern("A(x, x)"), @r#"
-    error: s.lua:3:1: malformed pattern: unexpected 'x' at character 6
+    error: s.lua:3:14: malformed pattern: unexpected 'x' at character 6
         A(x, x)
              ^
       | s:rule("A(x, x)", function() return B() end)
-      | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
+      |              ^
       help: duplicate parameter name x
     "#);
     assert_snapshot!(pattern("A(1x)"), @r#"
-    error: s.lua:3:1: malformed pattern: unexpected '1' at character 3
+    error: s.lua:3:11: malformed pattern: unexpected '1' at character 3
         A(1x)
           ^
       | s:rule("A(1x)", function() return B() end)
-      | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
+      |           ^
       help: expected a number such as 2, -1.5 or 1e-3
     "#);
     assert_snapshot!(pattern("A('x)"), @r#"
-    error: s.lua:3:1: malformed pattern: unexpected ''' at character 3
+    error: s.lua:3:11: malformed pattern: unexpected ''' at character 3
         A('x)
           ^
       | s:rule("A('x)", function() return B() end)
-      | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
+      |           ^
       help: this text is not closed
     "#);
     assert_snapshot!(pattern("B < A(x) é"), @r#"
@@ -224,19 +224,19 @@ fn a_pattern_has_predecessors_and_no_empty_context() {
       help: it was declared as B; write all parameters or no brackets
     "#);
     assert_snapshot!(pattern("A > *(x)"), @r#"
-    error: s.lua:3:1: malformed pattern: unexpected '(' at character 6
+    error: s.lua:3:14: malformed pattern: unexpected '(' at character 6
         A > *(x)
              ^
       | s:rule("A > *(x)", function() return B() end)
-      | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
+      |              ^
       help: * matches modules with any number of parameters, so it names none of them
     "#);
     assert_snapshot!(pattern("(A B) < A"), @r#"
-    error: s.lua:3:39: malformed pattern: unexpected 'B' at character 4
+    error: s.lua:3:12: malformed pattern: unexpected 'B' at character 4
         (A B) < A
            ^
       | s:rule("(A B) < A", function() return B() end)
-      |                                       ^
+      |            ^
       help: expected | or ), as in (A|B)
     "#);
     assert_snapshot!(pattern("< A(x)"), @r#"

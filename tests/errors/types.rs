@@ -260,6 +260,7 @@ fn what_a_function_of_a_type_does_wrong_is_told_in_its_line() {
       | coroutine.yield()
       |           ^^^^^
       module: A, step 0
+      help: rules, guards, interpretations and hooks cannot pause: return modules that continue in the next step, or wrap the code in a coroutine of its own, coroutine.wrap(function() ... end)
     ");
     assert_snapshot!(refused("local A = module(\"A\")\nlocal function draw(object)\n  local s = lsystem({ object = object })\n  s:axiom(A())\n  s:interpret(\"A\", function(this) this:go(2) end)\n  s:derive(1)\nend\ndraw(object(\"lamp\", {\n  changes = { go = function(self)\n  end },\n}))\n"), @r#"
     error: s.lua:5:40: rule A (interpretation): lamp:go takes no arguments

@@ -50,7 +50,7 @@ fn a_sheet_is_the_same_for_any_number_of_threads_and_tells_its_cells() {
     let mut document = said.json();
     document["seconds"] = 0.into();
     document["cells"].as_array_mut().unwrap().truncate(1);
-    assert_snapshot!(document, @r#"{"ok":true,"columns":2,"rows":2,"size":[92,114],"cells":[{"label":"seed 1","seed":1,"params":{"n":2.0,"kind":"a"},"modules":1,"triangles":28,"warnings":[]}],"seconds":0}"#);
+    assert_snapshot!(document, @r#"{"ok":true,"columns":2,"rows":2,"size":[92,114],"cells":[{"label":"seed 1","seed":1,"params":{"n":2.0,"kind":"a"},"modules":1,"triangles":28,"warnings":[]}],"warnings":[],"seconds":0}"#);
     assert_eq!(said.stderr, "");
     assert!(sheet(&["--seeds", "5..8"]).0 != one);
     sheet(&["--sweep", "kind", "--fit", "all", "--columns", "1", "--background", "dark", "--azimuth", "10"]);
@@ -62,13 +62,19 @@ fn without_seeds_nine_are_shown_and_equal_pictures_are_told() {
     let said = folder.burgeon(&arguments(&[])).done();
     assert!(said.stderr.starts_with("9 variations, "), "{}", said.stderr);
     let own = SCRIPT.replace("lsystem({ object", "lsystem({ seed = 7, object");
-    let said = folder.with("s.lua", &own).burgeon(&arguments(&["--seeds", "1..3"])).done();
+    let folder = folder.with("s.lua", &own);
+    let said = folder.burgeon(&arguments(&["--seeds", "1..3"])).done();
     let (warning, rest) = said.stderr.split_once("\n3 variations").expect("a warning");
     assert!(!rest.is_empty());
     assert_snapshot!(warning, @r"
-    warning: the 3 pictures are equal
-      help: draw random numbers with random(), and give lsystem no seed of its own
+    warning: s.lua:4:21: the 3 pictures are equal: lsystem has its own `seed`
+      | local s = lsystem({ seed = 7, object = turtle({ width = 0.2 }) })
+      |                     ^^^^
+      help: remove `seed` from lsystem, so that each run has another
     ");
+    let document = folder.burgeon(&arguments(&["--seeds", "1..3", "--json"])).done().json();
+    assert_eq!(document["warnings"][0]["kind"], "no-effect");
+    assert_eq!(document["warnings"][0]["file"], "s.lua");
 }
 
 #[test]

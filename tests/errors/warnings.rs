@@ -253,6 +253,10 @@ fn declarations_after_derive() {
       | s:consider("A")
       |   ^^^^^^^^
       help: call it before system:derive()
+    warning: s.lua:8:3: the system has both ignore and consider, the first in s.lua:7: contexts see only the modules of consider that ignore does not name
+      | s:consider("A")
+      |   ^^^^^^^^
+      help: remove one of the two
     warning: s.lua:9:3: axiom has no effect after derive
       | s:axiom(B())
       |   ^^^^^

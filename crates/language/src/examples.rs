@@ -52,6 +52,7 @@ pub const EXAMPLES: &[ScriptExample] = examples! {
     "param" shows "param";
     "point" shows "point";
     "poisson" shows "poisson";
+    "polar" shows "polar";
     "polygon" shows "polygon";
     "prototype" shows "prototype";
     "query" shows "query";

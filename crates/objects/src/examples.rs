@@ -59,6 +59,7 @@ pub const EXAMPLES: &[ScriptExample] = examples! {
     "turtle/joints" shows "turtle.joints";
     "turtle/jump" shows "turtle:jump" "turtle.position";
     "turtle/level" shows "turtle:level";
+    "turtle/line_to" shows "turtle:line_to";
     "turtle/mesh" shows "turtle:mesh";
     "turtle/paint" shows "turtle:paint" "turtle.palette";
     "turtle/pitch" shows "turtle:pitch" "turtle:pitch_up";

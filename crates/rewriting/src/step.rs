@@ -19,7 +19,7 @@ use crate::series_pause::SeriesPause;
 use crate::step_number::StepNumber;
 use crate::uses::Use;
 use burgeon_base::Stop;
-use burgeon_base::error::{Error, Limit, Result};
+use burgeon_base::error::{Error, ErrorKind, Limit, Result};
 use burgeon_base::locks::LockRecovery;
 use burgeon_base::memory::make_exact_room;
 
@@ -211,12 +211,14 @@ impl Stepper {
             ready: Condvar::new(),
         });
         helpers.offer(&work, count)?;
-        let result = self.merge(rules, stop, &work);
+        let mut growth = vec![0; self.plan.grammar.rules().len()];
+        let result = self.merge(rules, stop, &work, &mut growth);
         if result.is_err() {
             work.abandon();
         }
         let work = reclaim(work);
-        let StepTotals { ran, changed, applied } = result?;
+        let StepTotals { ran, changed, applied } =
+            result.map_err(|error| self.blame_for_memory(error, &growth))?;
         let (reads_step, is_last) = (work.step.is_read(), work.step.is_last());
         self.links = work.links;
         self.outputs = work.spare.into_inner().recover();
@@ -232,11 +234,16 @@ impl Stepper {
         }
     }
 
-    /// Works on pieces and merges their results in order.
-    fn merge(&mut self, rules: &dyn Rules, stop: &Stop, work: &StepWork) -> Result<StepTotals> {
+    /// Works on pieces and merges their results in order. Adds the number of symbols that each rule makes to `growth`.
+    fn merge(
+        &mut self,
+        rules: &dyn Rules,
+        stop: &Stop,
+        work: &StepWork,
+        growth: &mut [usize],
+    ) -> Result<StepTotals> {
         let made = &mut self.spare;
         made.clear();
-        let mut growth = vec![0usize; self.plan.grammar.rules().len()];
         let mut applied = Vec::new();
         let (mut ran, mut changed) = (false, false);
         let (mut chain, mut applications) = (0, 0);
@@ -274,7 +281,7 @@ impl Stepper {
             output.clear();
             work.spare.lock().recover().push(output);
             if made.symbols.len() > self.plan.limit {
-                return Err(self.limit_error(&growth, work.step.number()));
+                return Err(self.limit_error(growth, work.step.number()));
             }
         }
         self.applied_last = Some(applications);
@@ -291,9 +298,29 @@ impl Stepper {
         let limit = self.plan.limit;
         let error = Error::limit(Limit::Modules, format!("the chain exceeded {limit} modules in step {step}"))
             .help("end the growth with a guard or a counter, derive fewer steps, or raise the limit: --module-limit N");
-        match growth.iter().enumerate().max_by_key(|(index, count)| (**count, usize::MAX - index)) {
-            Some((rule, _)) => {
-                let rule = &self.plan.grammar.rules()[rule];
+        self.name_growth(error, growth)
+    }
+
+    /// Adds the rule that has produced the most symbols to the error of a run that exceeds its memory limit. `growth` has the
+    /// number of symbols of each rule in the present step; it may be empty.
+    pub fn blame_for_memory(&self, error: Error, growth: &[usize]) -> Error {
+        match error.kind() {
+            ErrorKind::Limit(Limit::Memory) => self.name_growth(error, growth),
+            _ => error,
+        }
+    }
+
+    /// Adds the rule that has produced the most symbols in the step, or in all steps if none has yet, unless the error names a
+    /// rule.
+    fn name_growth(&self, error: Error, growth: &[usize]) -> Error {
+        let rules = self.plan.grammar.rules();
+        let total = |index: usize| self.uses.get(index).map_or(0, |uses| uses.made);
+        let most = (0..rules.len())
+            .map(|index| (growth.get(index).copied().unwrap_or(0), total(index), usize::MAX - index))
+            .max()
+            .filter(|(now, total, _)| now + total > 0);
+        match most.and_then(|(.., index)| rules.get(usize::MAX - index)) {
+            Some(rule) => {
                 error.at_place(rule.place.as_ref()).rule(format!("{} (which grew most)", rule.pattern.text))
             }
             None => error,

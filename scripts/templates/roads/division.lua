@@ -288,18 +288,6 @@ function division.rules(
   system:interpret("Lane(junction, way, depth, along, lanes)", lead)
 end
 
--- Reports land that could not be divided.
-function division.report(caller: string)
-  local land: any = query("select area, block, x, y from Undivided order by area desc, x, y")
-  if #land > 0 then
-    local of = land[1]
-    warn(
-      `{caller}: land stays undivided in {#land} {if #land > 1 then "places" else "place"}, at most {of.area // 1} m² near {of.x // 1}, {of.y // 1} (m), where blocks have up to {of.block // 1} m²`,
-      "try narrower streets, a smaller clearance of the network, a larger block or another seed"
-    )
-  end
-end
-
 -- The module that begins the division.
 division.Land = Land
 

@@ -9,6 +9,7 @@ local greens = require("greens")
 local highways = require("highways")
 local mains = require("mains")
 local options = require("options")
+local reports = require("reports")
 
 local growth = {}
 
@@ -67,17 +68,10 @@ local function drawn(x: number, y: number, seed: number): number
   return mixed * 40503 % 65536 / 65536
 end
 
--- A system whose network grows by a pattern; derive it to its end. Options: `pattern` (or a function from a position
--- to a pattern), fields of the `network`, the `extent` (m) from the centre or a function that tests if a position is
--- within, the `population` at a position from 0 to 1, `centres` that highways join, `headings` of the first streets,
--- `onto` true to grow from the open ends of existing streets, the `deepest` side streets, `join` (m) and `detour` for
--- dead ends, and `dead_ends`, which are "keep" or "remove" for the remaining dead ends. `exits` are streets that
--- leave the town at the end, which takes the last four steps; `allowed` tests if a street may be proposed.
-function growth.system(asked: any, ...: number): (System<Network>, number?)
+-- The system of `growth.system`, and its options with defaults. The script called `caller`, which errors name.
+local function create(asked: any, caller: string): (System<Network>, any)
   -- The number of functions between this function and the script, for errors.
-  local level = 3 + ((...) or 0)
-  -- The function that the script called, for errors.
-  local caller = if level > 3 then "roads.grow" else "roads.system"
+  local level = 4
   local of: any = options.read(asked, caller, level + 1)
   local pattern_at: (x: number, y: number) -> Pattern = of.pattern_at
   local inside: (x: number, y: number) -> boolean = of.inside
@@ -412,10 +406,6 @@ function growth.system(asked: any, ...: number): (System<Network>, number?)
 
   system:rule("Clock(left)", function(this: Network, left: number)
     if left == 0 then
-      if of.divides then
-        mains.report(caller)
-        division.report(caller)
-      end
       local leads = of.leads_out
       return checks.successor(
         if leads then exits.modules(this, leads, of.joint, of.detour, of.allowed) else {}
@@ -480,13 +470,26 @@ function growth.system(asked: any, ...: number): (System<Network>, number?)
       end
     end
   end)
+  return system, of
+end
+
+-- A system whose network grows by a pattern; derive it to its end. Options: `pattern` (or a function from a position
+-- to a pattern), fields of the `network`, the `extent` (m) from the centre or a function that tests if a position is
+-- within, the `population` at a position from 0 to 1, `centres` that highways join, `headings` of the first streets,
+-- `onto` true to grow from the open ends of existing streets, the `deepest` side streets, `join` (m) and `detour` for
+-- dead ends, and `dead_ends`, which are "keep" or "remove" for the remaining dead ends. `exits` are streets that
+-- leave the town at the end, which takes the last four steps; `allowed` tests if a street may be proposed.
+function growth.system(asked: any): (System<Network>, number?)
+  local system, of = create(asked, "roads.system")
   return system, if of.divides then nil else of.steps
 end
 
 -- Grows a network by a pattern: `roads.system`, derived.
 function growth.grow(asked: any)
-  local system, steps = growth.system(asked, 1)
-  return system:derive(steps)
+  local system, of = create(asked, "roads.grow")
+  local derived = system:derive(if of.divides then nil else of.steps)
+  reports.warn_of(derived, of)
+  return derived
 end
 
 return growth

@@ -90,17 +90,6 @@ local function outline(
   end
 end
 
--- Reports sectors with a failed outline.
-function mains.report(caller: string)
-  local open: any = query("select x, y from Unclosed order by x, y")
-  if #open > 0 then
-    warn(
-      `{caller}: the outline of the town stays open in {#open} {if #open > 1 then "places" else "place"}, the first near {open[1].x // 1}, {open[1].y // 1} (m), and land there has no streets`,
-      "try another seed, a greater extent or a smaller block"
-    )
-  end
-end
-
 -- The rules that remove streets that lead nowhere.
 function mains.trims(system: System<Network>)
   -- If no land is between streets, all of them would be removed.

@@ -25,8 +25,11 @@ const OPERATIONS: [(&str, &[&str]); 11] = [
 
 /// Returns the columns (characters, from 0) of the part of `line` that `message` names, if it is the only such part.
 ///
-/// A message names a part in quotes, as a method or function, or by the operation that failed.
+/// A message marks a letter of a text, or names a part in quotes, as a method or function, or by the operation that failed.
 pub(super) fn find_columns(line: &str, message: &str) -> Option<Range<usize>> {
+    if let Some(letter) = marked_letter(line, message) {
+        return Some(letter..letter + 1);
+    }
     let code = code_of(line);
     let found = quoted_parts(message)
         .find_map(|name| only(line, name).or_else(|| only(&code, name)))
@@ -39,6 +42,25 @@ pub(super) fn find_columns(line: &str, message: &str) -> Option<Range<usize>> {
     // Blanked strings have the length of the line in bytes, but not its letters.
     let count = |end: usize| Some(line.get(..end)?.chars().count());
     Some(count(found.start)?..count(found.end)?)
+}
+
+/// Returns the column of the letter below which a message has a caret: its last two lines are a text, which may be cut, and
+/// the caret. `None` if the text is not in `line` exactly once.
+fn marked_letter(line: &str, message: &str) -> Option<usize> {
+    const CUT: &str = "...";
+    let mut lines = message.lines().rev();
+    let (carets, text) = (lines.next()?, lines.next()?);
+    let letter = carets.strip_suffix('^').filter(|spaces| spaces.chars().all(|space| space == ' '))?.len();
+    let indent = text.chars().take_while(|letter| *letter == ' ').count().min(4);
+    let text = text.get(indent..)?;
+    let (begun, cut) = match text.strip_prefix(CUT) {
+        Some(rest) => (rest, CUT.len()),
+        None => (text, 0),
+    };
+    let begun = begun.strip_suffix(CUT).unwrap_or(begun);
+    let mut places = line.match_indices(begun).map(|(at, _)| at);
+    let (Some(at), None) = (places.next().filter(|_| !begun.is_empty()), places.next()) else { return None };
+    Some(line[..at].chars().count() + letter.checked_sub(indent + cut)?)
 }
 
 /// Returns the texts of a message between quotes.
@@ -186,6 +208,16 @@ mod tests {
         ] {
             assert_eq!(found(line, message), Some(part), "{line}: {message}");
         }
+    }
+
+    #[test]
+    fn the_letter_above_the_caret_of_a_message_is_found() {
+        let line = "s:rule(\"é(é(x)\", \"F\")";
+        let message = "malformed pattern: unexpected '(' at character 3\n    é(é(x)\n      ^";
+        assert_eq!(find_columns(line, message), Some(10..11));
+        let cut = "malformed pattern: unexpected '(' at character 30\n    ...(é(x...\n        ^";
+        assert_eq!(find_columns(line, cut), Some(10..11));
+        assert_eq!(find_columns("f(\"F\", \"F\")", "malformed: unexpected end\n    F\n     ^"), None);
     }
 
     #[test]

@@ -224,6 +224,14 @@ impl Error {
         self
     }
 
+    /// Removes the location.
+    #[must_use]
+    pub fn without_place(mut self) -> Self {
+        self.0.place = None;
+        self.0.columns = None;
+        self
+    }
+
     /// Sets the script line that led to the error, unless it is already set. It is only shown if the location is in
     /// another file.
     #[must_use]

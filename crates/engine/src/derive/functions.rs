@@ -1,7 +1,7 @@
 //! Rule functions that run in a virtual machine.
 
 use crate::machine::{Machine, SystemFunctions, read_column, write_column, write_columns};
-use burgeon_base::error::Result;
+use burgeon_base::error::{Error, ErrorKind, Limit, Result};
 use burgeon_rewriting::{
     Applications, DependentModules, ModuleKey, NO_RULE, RuleFailure, Rules, ShowParameters, StepNumber,
     Successors,
@@ -29,7 +29,7 @@ impl LuaRules<'_> {
             return Ok(());
         }
         let input = self.machine.prelude().input(applications.arguments.len() * 8);
-        write_column(input.map_err(|error| self.machine.translate(error))?, applications.arguments)
+        write_column(input.map_err(|error| self.translate(error))?, applications.arguments)
     }
 
     /// Passes the places, chains and random keys of modules to the machine.
@@ -72,7 +72,7 @@ impl LuaRules<'_> {
             column.extend((0..draws).map(|_| stream.uniform()));
         }
         let buffer = self.machine.prelude().randoms(column.len() * 8, draws);
-        write_column(buffer.map_err(|error| self.machine.translate(error))?, &column)
+        write_column(buffer.map_err(|error| self.translate(error))?, &column)
     }
 
     /// Calls a driver of a rule or guard for all applications.
@@ -115,19 +115,30 @@ impl LuaRules<'_> {
         Ok([of_modules, of_modules + of_neighbours, arguments, values])
     }
 
+    /// Returns the error of a script for an error of Lua, without the line of `derive`: if memory runs out outside the functions of
+    /// rules, the line of a rule tells more.
+    fn translate(&self, error: mlua::Error) -> Error {
+        let error = self.machine.translate(error);
+        let is_memory = matches!(error.kind(), ErrorKind::Limit(Limit::Memory));
+        match is_memory && error.place() == Machine::place(self.machine.lua()).as_ref() {
+            true => error.without_place(),
+            false => error,
+        }
+    }
+
     /// Returns the failure with the index of the application that failed.
     fn failure(&self, error: mlua::Error) -> RuleFailure {
         let prelude = self.machine.prelude();
         let at = self.machine.failed_at().map_or(0, |(at, ..)| at);
         // If ending the batch fails too, the machine is dropped with the run.
         let _ = prelude.finish.call::<()>(());
-        RuleFailure { at, error: self.machine.translate(error) }
+        RuleFailure { at, error: self.translate(error) }
     }
 }
 
 impl Rules for LuaRules<'_> {
     fn apply(&self, applications: &Applications<'_>, made: &mut Successors) -> Result<(), RuleFailure> {
-        let lua = |error: mlua::Error| self.machine.translate(error);
+        let lua = |error: mlua::Error| self.translate(error);
         let (prelude, current) = (self.machine.prelude(), &self.machine.current);
         let division = self.declared.divisions[usize::from(applications.rule)].as_ref();
         if division.is_some_and(|division| division.apply(self.machine, applications.arguments, made)) {
@@ -154,7 +165,7 @@ impl Rules for LuaRules<'_> {
     fn guard(&self, applications: &Applications<'_>, holds: &mut Vec<u32>) -> Result<(), RuleFailure> {
         self.prepare(applications)?;
         let counts = self.machine.prelude().counts(applications.count * 4);
-        let counts = counts.map_err(|error| self.machine.translate(error))?;
+        let counts = counts.map_err(|error| self.translate(error))?;
         let Some(guard) = &self.declared.guards[usize::from(applications.rule)] else { return Ok(()) };
         let asked = self.call::<()>(guard, applications);
         // Guard results before the failure remain valid.
@@ -169,7 +180,7 @@ impl Rules for LuaRules<'_> {
     ) -> Result<(), RuleFailure> {
         self.prepare(applications)?;
         let column = self.machine.prelude().counts(applications.count * 8);
-        let column = column.map_err(|error| self.machine.translate(error))?;
+        let column = column.map_err(|error| self.translate(error))?;
         let Some(propensity) = &self.declared.propensities[usize::from(applications.rule)] else {
             return Ok(());
         };
@@ -185,7 +196,7 @@ impl Rules for LuaRules<'_> {
         made: &mut Successors,
         chosen: &mut Vec<u32>,
     ) -> Result<(), RuleFailure> {
-        let lua = |error: mlua::Error| self.machine.translate(error);
+        let lua = |error: mlua::Error| self.translate(error);
         let (prelude, current) = (self.machine.prelude(), &self.machine.current);
         let count = modules.modules.len();
         let driver = self.declared.dependents.driver(self.machine, modules).map_err(lua)?;

@@ -45,7 +45,10 @@ fn settle(machine: &Machine, derivation: Derivation, grown: DerivationResults) -
     let systems = machine.library.systems.borrow();
     let undrawn = systems[plan.system].undrawn(&machine.library, symbols, &grown.undrawn);
     drop(systems);
-    let city = machine.library.systems.borrow()[plan.system].city;
+    let (city, has_own_seed) = {
+        let system = &machine.library.systems.borrow()[plan.system];
+        (system.city, system.seed.is_some())
+    };
     drop(declared);
     machine.current.objects.replace(None);
     session.keep(&grown.chain.params);
@@ -111,6 +114,8 @@ fn settle(machine: &Machine, derivation: Derivation, grown: DerivationResults) -
         rows,
         draws,
         undrawn,
+        has_own_seed,
+        has_cut: grown.has_cut,
         variables: variables.into_inner().recover().map(Arc::unwrap_or_clone),
         reported,
         uses: SystemUses::default(),

@@ -35,6 +35,8 @@ pub(super) struct DerivationResults {
     pub features: Option<RowFeatures>,
     /// Symbols of modules that the last pass returned and could not draw.
     pub undrawn: BTreeSet<Symbol>,
+    /// Set if branches were cut.
+    pub has_cut: bool,
 }
 
 /// Derives the axiom `chain` in the phases of its system.
@@ -80,6 +82,7 @@ pub(super) fn derive(
         group: None,
         variables_changed: false,
         has_cut: false,
+        has_ever_cut: false,
         checkpoints,
     };
     state.use_group(derivation.group);
@@ -108,6 +111,7 @@ pub(super) fn derive(
         steps: state.steps,
         features: state.features.map(RefCell::into_inner),
         undrawn: state.pass.undrawn,
+        has_cut: state.has_ever_cut,
     })
 }
 

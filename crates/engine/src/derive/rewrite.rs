@@ -28,6 +28,7 @@ impl Phase<DerivationState<'_>> for CutBranches {
         let begin = Instant::now();
         let made = plan.cut.and_then(|symbol| cut(&chain, symbol, arities));
         state.has_cut = made.is_some();
+        state.has_ever_cut |= state.has_cut;
         let Some(CutChain { chain: mut made, applied }) = made else { return Ok(PhaseOutcome::next(chain)) };
         made.mark(plan.steps.batch, arities);
         plan.keep_places(&applied);
@@ -241,16 +242,28 @@ fn perform_events_of(
 pub(super) struct Decompose;
 
 impl Phase<DerivationState<'_>> for Decompose {
-    fn run(
-        &self,
+    fn run(&self, state: &mut DerivationState<'_>, chain: Arc<Chain>, number: usize) -> Result<PhaseOutcome> {
+        let (Some(rules), Some(mut decomposer)) =
+            (&state.derivation.plan.decomposition, state.decomposer.take())
+        else {
+            return Ok(PhaseOutcome::next(chain));
+        };
+        let made = Self::apply(state, rules, &mut decomposer, chain, number);
+        let made = made.map_err(|error| decomposer.blame_for_memory(error, &[]));
+        state.decomposer = Some(decomposer);
+        made
+    }
+}
+
+impl Decompose {
+    fn apply(
         state: &mut DerivationState<'_>,
+        rules: &Decomposition,
+        decomposer: &mut Stepper,
         mut chain: Arc<Chain>,
         number: usize,
     ) -> Result<PhaseOutcome> {
         let Derivation { plan, declared, .. } = state.derivation;
-        let (Some(rules), Some(mut decomposer)) = (&plan.decomposition, state.decomposer.take()) else {
-            return Ok(PhaseOutcome::next(chain));
-        };
         let mut is_last = false;
         for depth in 1.. {
             let begin = Instant::now();
@@ -264,7 +277,7 @@ impl Phase<DerivationState<'_>> for Decompose {
                 Interpret.run(state, Arc::clone(&chain), number)?;
                 state.restore_variables(variables)?;
             }
-            let mut outcome = step(state.leader, plan, &mut decomposer, declared, &chain, number)?;
+            let mut outcome = step(state.leader, plan, decomposer, declared, &chain, number)?;
             plan.set_places(None);
             state.times.rewriting += begin.elapsed();
             state.decomposition_reads_step |= outcome.reads_step;
@@ -277,7 +290,6 @@ impl Phase<DerivationState<'_>> for Decompose {
             decomposer.reuse(chain);
             chain = Resolve.run(state, Arc::new(outcome.chain), number)?.chain;
         }
-        state.decomposer = Some(decomposer);
         Ok(PhaseOutcome { is_last, ..PhaseOutcome::next(chain) })
     }
 }

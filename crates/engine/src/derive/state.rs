@@ -48,6 +48,8 @@ pub(super) struct DerivationState<'a> {
     pub(super) variables_changed: bool,
     /// Set if branches were cut at the beginning of the step.
     pub(super) has_cut: bool,
+    /// Set if branches were cut in any step.
+    pub(super) has_ever_cut: bool,
     /// Writer of checkpoints, if later runs can continue from them.
     pub(super) checkpoints: Option<CheckpointWriter>,
 }

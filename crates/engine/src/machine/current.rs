@@ -39,8 +39,8 @@ pub(crate) trait Flusher: std::any::Any {
     /// Adds a number that the interpretation rule of `entry` reports to the sum of `name` in its chain.
     fn report(&mut self, entry: usize, name: &str, value: f64) -> Result<()>;
 
-    /// Records that an interpretation rule has returned a module that nothing draws.
-    fn note_undrawn(&self, symbol: Symbol);
+    /// Records that the interpretation rule of `entry` has returned a module that nothing draws.
+    fn note_undrawn(&mut self, entry: usize, symbol: Symbol);
 
     /// Records that `entry` has returned a `module`, given as text, to which `rule` does not apply any more.
     fn note_depth(&mut self, entry: usize, rule: u16, module: &str, max_depth: usize);

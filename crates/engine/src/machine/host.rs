@@ -230,9 +230,9 @@ fn add_returned_modules(
     let state = Rc::clone(current);
     host.set(
         "undrawn",
-        lua.create_function(move |_, symbol: u16| {
-            if let Some(flusher) = state.flusher.borrow().as_ref() {
-                flusher.note_undrawn(symbol);
+        lua.create_function(move |_, (entry, symbol): (usize, u16)| {
+            if let Some(flusher) = state.flusher.borrow_mut().as_mut() {
+                flusher.note_undrawn(entry, symbol);
             }
             Ok(())
         })?,

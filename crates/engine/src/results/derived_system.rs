@@ -84,6 +84,10 @@ pub struct DerivedSystem {
     pub(crate) draws: bool,
     /// Warnings about symbols of the final chains that nothing draws; ignored if the script reads the chains.
     pub(crate) undrawn: Vec<(Symbol, Warning)>,
+    /// Set if the script gives the system a seed of its own.
+    pub has_own_seed: bool,
+    /// Set if the module `Cut` erased branches.
+    pub(crate) has_cut: bool,
     /// Number of modules in all chains, without brackets.
     pub(crate) modules: usize,
     /// Variables of the system after the last step.

@@ -30,6 +30,10 @@ pub(crate) fn emptiness(warnings: &[Warning], systems: &[Arc<DerivedSystem>]) ->
         NO_EXTENT
     } else if drawing.steps == 0 {
         "the derivation has 0 steps: check that a rule applies to the axiom, or interpret the axiom's modules"
+    } else if drawing.modules() == 0 && drawing.has_cut {
+        "its final chain is empty, because Cut() erases itself and all that follows in its branch: put it into a branch, or behind what remains"
+    } else if drawing.modules() == 0 {
+        "its final chain is empty, because its rules erase all modules: return a module that is drawn, not nil"
     } else {
         "no module of its final chain is drawn: add system:interpret(pattern, function(this, ...) ... end)"
     };

@@ -64,8 +64,22 @@ impl<'a> Arguments<'a> {
     pub fn next<T: Parameter>(&mut self, name: &str) -> Result<T> {
         let value = self.values.get(self.taken).unwrap_or(&Value::Nil);
         self.taken += 1;
-        T::read_value(value)
-            .map_err(|expected| expected.refuse(&format!("{}:{}", self.kind, self.method), name, value))
+        T::read_value(value).map_err(|expected| {
+            let error = expected.refuse(&format!("{}:{}", self.kind, self.method), name, value);
+            match self.numbers_for_vector::<T>() {
+                Some(numbers) => error.help(format!("give `{name}` as one vector: vec({numbers})")),
+                None => error,
+            }
+        })
+    }
+
+    /// Returns the text of the two or three numbers from the last argument on, if a script passes them for one vector.
+    #[cold]
+    fn numbers_for_vector<T: Parameter>(&self) -> Option<String> {
+        let is_number = |value: &&Value| matches!(value, Value::Number(_));
+        let rest = self.values.get(self.taken - 1..)?;
+        let numbers: Vec<String> = rest.iter().take_while(is_number).take(3).map(Value::to_string).collect();
+        (numbers.len() > 1 && T::luau().trim_end_matches('?') == "Vector").then(|| numbers.join(", "))
     }
 
     /// Fails if arguments remain.

@@ -30,6 +30,9 @@ pub fn remedy_of_value(message: &str) -> Option<&'static str> {
         "give the value a text before: one side is nil"
     } else if starts("attempt to compare") {
         "compare two numbers or two texts: tonumber(x) converts a text"
+    } else if starts("attempt to yield across") {
+        "rules, guards, interpretations and hooks cannot pause: return modules that continue in the next step, or wrap the code in \
+         a coroutine of its own, coroutine.wrap(function() ... end)"
     } else if starts("attempt to get length of nil") {
         "check that the list exists: nothing was assigned to it"
     } else {

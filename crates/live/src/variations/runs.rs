@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{Sender, channel};
 use std::sync::{Arc, Mutex};
 
-use burgeon_base::error::{Error, Result};
+use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_base::locks::LockRecovery;
 use burgeon_base::stop::Stop;
 use burgeon_base::warning::Warning;
@@ -59,6 +59,8 @@ pub struct Thumbnail {
     pub triangles: usize,
     /// Warnings, in the order of files and lines.
     pub warnings: Vec<Warning>,
+    /// Locations of the systems that have a seed of their own.
+    pub seeded: Vec<SourcePlace>,
 }
 
 /// Set of variations of a script.
@@ -86,6 +88,7 @@ struct VariationRun {
     modules: usize,
     triangles: usize,
     warnings: Vec<Warning>,
+    seeded: Vec<SourcePlace>,
 }
 
 impl Variations {
@@ -196,13 +199,16 @@ impl Variations {
                 .help("end it with system:derive()"));
         }
         let modules = run.systems.iter().map(|system| system.modules()).sum();
+        let seeded = run.systems.iter().filter(|system| system.has_own_seed);
+        let seeded = seeded.filter_map(|system| system.place.clone()).collect();
         let (triangles, extent) = (run.scene.triangles(), Extent::of(&run.scene)?);
         let room = held.is_none_or(|held| {
             let size = scene_bytes(&run.scene);
             held.fetch_add(size, Ordering::Relaxed).saturating_add(size) < HELD
         });
         let scene = room.then_some(run.scene);
-        Ok(VariationRun { scene, extent, params: run.params, modules, triangles, warnings: run.warnings })
+        let (params, warnings) = (run.params, run.warnings);
+        Ok(VariationRun { scene, extent, params, modules, triangles, warnings, seeded })
     }
 
     fn render(
@@ -217,8 +223,8 @@ impl Variations {
             None => self.run(number, None)?.scene.unwrap_or_default(),
         };
         let picture = thumbnail(&scene, extent, picture, &self.stop)?;
-        let VariationRun { params, modules, triangles, warnings, .. } = ran;
-        Ok(Thumbnail { picture, params, modules, triangles, warnings })
+        let VariationRun { params, modules, triangles, warnings, seeded, .. } = ran;
+        Ok(Thumbnail { picture, params, modules, triangles, warnings, seeded })
     }
 
     fn workers(&self) -> usize {

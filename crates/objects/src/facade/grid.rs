@@ -17,9 +17,9 @@ pub struct GridOptions {
     pub columns: Count,
     /// Number of rows: a number or { minimum, maximum }.
     pub rows: Count,
-    /// Width (m): preferred, { minimum, maximum } or { minimum, preferred, maximum }.
+    /// Width of all cells together (m): preferred, { minimum, maximum } or { minimum, preferred, maximum }.
     pub width: Option<Size>,
-    /// Height (m), in the same form.
+    /// Height of all cells together (m), in the same form.
     pub height: Option<Size>,
 }
 
@@ -28,7 +28,9 @@ pub fn kind() -> &'static Arc<Kind> {
     static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
         let kind = Kind::new(
             "grid",
-            "A wall that is repeated in rows and columns; the number of repetitions fits its preferred size best.",
+            "A wall that is repeated in rows and columns; the number of repetitions fits its preferred size best. `columns` and \
+             `rows` are numbers of cells. `width` and `height` are sizes (m) of all cells together; the size of one cell is that \
+             of its wall.",
         )
         .first("wall")
         .example(include_str!("../../scripts/grid.lua"));

@@ -12,7 +12,7 @@ use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::Warning;
 use burgeon_geometry::Plan;
 use burgeon_kit::declare::as_mut;
-use burgeon_kit::{Color, Drawing, LevelOfDetail, Object, Report, Table, Value, Vector, object};
+use burgeon_kit::{Color, Drawing, LevelOfDetail, Object, Report, Table, Value, Vector, Warn, object};
 use burgeon_scene::Material;
 use burgeon_spatial::GeometryObject;
 use glam::DVec3;
@@ -48,7 +48,7 @@ use glam::DVec3;
     first = "geometry",
     example = include_str!("../../scripts/footprint.lua"),
     draws,
-    can(LevelOfDetail, Report),
+    can(LevelOfDetail, Report, Warn),
     begins_empty,
     begin = restart,
     end = finish,
@@ -76,6 +76,8 @@ pub struct Footprint {
     /// Walls that are still to be drawn.
     pub(super) plain: Option<Plain>,
     pub(super) notes: Vec<Warning>,
+    /// Warnings since the last call of `take_warnings`.
+    pub(super) warnings: Vec<Warning>,
 }
 
 impl Footprint {
@@ -119,6 +121,7 @@ impl Footprint {
             raised: 0,
             plain: None,
             notes: Vec::new(),
+            warnings: Vec::new(),
         };
         footprint.check_edge_keywords()?;
         Ok(footprint)
@@ -212,5 +215,11 @@ impl LevelOfDetail for Footprint {
 impl Report for Footprint {
     fn notes(&self) -> &[Warning] {
         &self.notes
+    }
+}
+
+impl Warn for Footprint {
+    fn take_warnings(&mut self) -> Vec<Warning> {
+        std::mem::take(&mut self.warnings)
     }
 }

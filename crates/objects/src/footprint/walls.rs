@@ -13,7 +13,7 @@ use crate::facade::{FacadeFace, FacadeLayout, FaceMesh, Joiner, Rectangle, Templ
 use crate::roofs::{Height, check_height};
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_base::random::Stream;
-use burgeon_base::warning::Warning;
+use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_geometry::{Ring, SAME, fill};
 use burgeon_kit::{Color, fields};
 use burgeon_scene::{Material, Part, SurfaceMeaning};
@@ -79,8 +79,23 @@ struct Frontage {
     edge: usize,
 }
 
+/// Width (m) below which a frontage without a template is a remark and no warning: such edges come from rounded corners.
+const NARROW: f64 = 1.0;
+
 /// Maximum extension of a mitre beyond a corner, per metre of projection.
 const STEEPEST_MITER: f64 = 1.5;
+
+/// Returns the warning that no template fits a frontage of this width and height (m). The message has no size, so that the
+/// frontages of all buildings are one warning.
+fn plain_warning(size: DVec2) -> Warning {
+    let text = "footprint:walls: no template fits a frontage, so its wall stays plain";
+    let help = format!(
+        "the first is {:.2} m wide and {:.2} m high: allow this size in a template, or give a template that fits all sizes, \
+         such as template(panel({{}}), {{ weight = 0 }}); --report FILE lists the others",
+        size.x, size.y
+    );
+    Warning::new(WarningKind::Doubtful, text).help(help)
+}
 
 impl Footprint {
     pub(super) fn raise(&mut self, options: &Walls) -> Result<()> {
@@ -278,6 +293,9 @@ impl Footprint {
                 first.y
             );
             self.notes.push(Warning::simplification("plain walls where no template fits").with_cause(why));
+            if let Some(wide) = without.iter().find(|size| size.x >= NARROW) {
+                self.warnings.push(plain_warning(*wide));
+            }
         }
         Ok(())
     }

@@ -482,12 +482,13 @@ impl ShapeObject {
         self.with_shape(self.shape.translate(self.shape.scope.axes * offset.0))
     }
 
-    /// Returns the shape rotated by `angle` (degrees) around an axis through the centre of its scope: the z axis of the
-    /// scope unless given.
-    pub fn rotate(&self, angle: f64, axis: Option<Vector>) -> Result<Self> {
+    /// Returns the shape rotated by `angle` (degrees) around an axis, the z axis of its scope unless given, through `point` (m,
+    /// the centre of the scope unless given).
+    pub fn rotate(&self, angle: f64, axis: Option<Vector>, point: Option<Vector>) -> Result<Self> {
         let axis =
             axis.map_or(Ok(self.shape.scope.axes.z_axis), |axis| unit("shape:rotate: the axis", axis.0))?;
-        Ok(self.with_shape(self.shape.rotate(self.shape.scope.center(), axis, angle.to_radians())))
+        let point = point.map_or_else(|| self.shape.scope.center(), |point| point.0);
+        Ok(self.with_shape(self.shape.rotate(point, axis, angle.to_radians())))
     }
 
     /// Returns the shape with a scope of this size (m), scaled from the scope's position.

@@ -16,7 +16,7 @@ use crate::frame_stack::FrameStack;
 use crate::mesh::{MeshFaces, MeshOptions, MeshPoints, draw_mesh};
 use crate::shapes::{ShapeObject, ShapeTarget, draw_shape};
 use burgeon_base::error::{Error, Result};
-use burgeon_base::warning::Warning;
+use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_geometry::{Frame, Strand, face, sphere};
 use burgeon_kit::{
     AxisScale, Color, Drawing, Locate, Model, ObjectPlace, Rescale, Rewind, Vector, Warn, methods, object,
@@ -140,6 +140,22 @@ impl Turtle {
     pub fn jump(&mut self, position: Vector) {
         self.leave();
         self.state.frame.position = position.0 - self.drawing.origin();
+    }
+
+    /// Turns the heading to a position (m), moves there and draws a branch. Within a polygon, only moves. Tropisms bend the
+    /// heading after the branch.
+    pub fn line_to(&mut self, position: Vector) -> Result<()> {
+        let to = position.0 - self.drawing.origin();
+        let way = to - self.state.frame.position;
+        if way.length_squared() < 1e-24 {
+            let text = "turtle:line_to: the turtle is already at this position, so nothing is drawn";
+            self.warnings.push(
+                Warning::new(WarningKind::DrawsNothing, text).help("use a position at a distance").of_all(),
+            );
+            return Ok(());
+        }
+        self.state.frame.face(way);
+        self.draw(way.length())
     }
 
     /// Sets the diameter of branches to `width` (m). A branch tapers to it along the next step.

@@ -234,3 +234,21 @@ fn a_turtle_that_returns_to_a_mark_draws_the_same_joints() {
     turtle.end().expect("the end of the pass");
     assert!(first == bytes(&turtle) && !first.is_empty());
 }
+
+#[test]
+fn a_line_ends_at_its_position_in_any_direction_and_is_a_solid() {
+    for (x, y, z) in [(1.0, 0.0, 0.0), (0.0, 0.0, -2.0), (-0.3, 4.0, 1.5)] {
+        let mut turtle = turtle();
+        turtle.turn(Some(30.0));
+        turtle.forward(Some(1.0)).expect("a step");
+        let begin = turtle.position();
+        let end = begin + DVec3::new(x, y, z);
+        turtle.jump(Vector(begin));
+        turtle.line_to(Vector(end)).expect("a line");
+        assert!(turtle.position().abs_diff_eq(end, 1e-9), "{}", turtle.position());
+        assert!(turtle.heading().abs_diff_eq((end - begin).normalize(), 1e-9), "{}", turtle.heading());
+        turtle.end().expect("the end of the pass");
+        assert!(check(drawn(&turtle)).is_solid());
+        assert!(turtle.distance(Vector(begin.midpoint(end))) < 0.5);
+    }
+}

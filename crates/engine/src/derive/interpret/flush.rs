@@ -4,11 +4,20 @@ use super::apply::Applier;
 use super::notices::ObjectNotice;
 use crate::machine::{Flusher, returns_value, stops_at_depth};
 use burgeon_base::error::{Error, Limit, Result};
-use burgeon_base::warning::Warning;
+use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_rewriting::Symbol;
 
 /// Maximum number of method calls of one application.
 const MOST_CALLS: usize = 1 << 24;
+
+/// Returns the warning about an interpretation that returns the module that cuts branches.
+fn cuts_nothing() -> Warning {
+    Warning::new(
+        WarningKind::NoEffect,
+        "Cut, which an interpretation returned, cuts nothing: interpretations do not change the chain",
+    )
+    .help("return Cut() from a rule")
+}
 
 impl Flusher for Applier {
     fn flush(&mut self, entry: usize, called: usize) -> Result<()> {
@@ -55,8 +64,12 @@ impl Flusher for Applier {
         Ok(())
     }
 
-    fn note_undrawn(&self, symbol: Symbol) {
-        self.pass.note_undrawn(symbol);
+    fn note_undrawn(&mut self, entry: usize, symbol: Symbol) {
+        if self.pass.plan.cut != Some(symbol) {
+            self.pass.note_undrawn(symbol);
+        } else if let Some(module) = self.entries.get(entry).copied() {
+            self.notices.push(ObjectNotice { warning: cuts_nothing(), module, call: None });
+        }
     }
 
     fn note_depth(&mut self, entry: usize, rule: u16, module: &str, max_depth: usize) {

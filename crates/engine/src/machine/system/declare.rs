@@ -405,6 +405,9 @@ fn rule_options(library: &Library, lua: &Lua, options: &Table) -> Result<RuleOpt
             }
         }
     }
+    if let Some(warning) = ignored.as_ref().and_then(|it| it.conflict("rule", Machine::place(lua))) {
+        library.machine()?.warn(warning);
+    }
     Ok(RuleOptions { weight, guard, propensity, group, ignored })
 }
 

@@ -23,7 +23,7 @@ use super::SystemDeclaration;
 use super::declaration::{MAX_DEPTH, RulePhase};
 use super::derive_arguments::DeriveArguments;
 use super::hooks::HookMoment;
-use super::ignored::{IgnoredModules, named_symbols};
+use super::ignored::{IgnoredModules, named_symbols, tell_conflict};
 use crate::machine::environments::environments_of;
 
 /// Script value for a system.
@@ -259,7 +259,7 @@ impl UserData for SystemHandle {
             this.declare(lua, "ignore", |system| {
                 let symbols = named_symbols(&library, lua, &names)?;
                 system.ignored.ignored.extend(symbols);
-                Ok(())
+                tell_conflict(&library, lua, &mut system.ignored)
             })?;
             Ok(this.again())
         });
@@ -268,7 +268,7 @@ impl UserData for SystemHandle {
             this.declare(lua, "consider", |system| {
                 let symbols = named_symbols(&library, lua, &names)?;
                 system.ignored.considered.get_or_insert_default().extend(symbols);
-                Ok(())
+                tell_conflict(&library, lua, &mut system.ignored)
             })?;
             Ok(this.again())
         });

@@ -2,8 +2,10 @@
 
 use mlua::{Lua, Value as LuaValue};
 
+use crate::machine::Machine;
 use crate::machine::library::Library;
-use burgeon_base::error::{Error, Result};
+use burgeon_base::error::{Error, Result, SourcePlace};
+use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_rewriting::{FIRST_SYMBOL, Symbol, Symbols};
 
 use super::strings::word_symbols;
@@ -14,6 +16,8 @@ pub(crate) struct IgnoredModules {
     pub(crate) ignored: Vec<Symbol>,
     /// The only modules that contexts do not skip, if they are declared.
     pub(crate) considered: Option<Vec<Symbol>>,
+    /// Location of the first `ignore` or `consider` of the system.
+    pub(crate) place: Option<SourcePlace>,
 }
 
 impl IgnoredModules {
@@ -28,11 +32,34 @@ impl IgnoredModules {
         }
     }
 
+    /// Returns the warning about a second declaration at `place`, if there are both `ignore` and `consider`. `owner` is "system" or
+    /// "rule".
+    pub(super) fn conflict(&self, owner: &str, place: Option<SourcePlace>) -> Option<Warning> {
+        if self.ignored.is_empty() || self.considered.is_none() {
+            return None;
+        }
+        let first = self.place.as_ref().map(|first| format!(", the first in {first}")).unwrap_or_default();
+        let text = format!(
+            "the {owner} has both ignore and consider{first}: contexts see only the modules of consider that ignore does not name"
+        );
+        Some(Warning::new(WarningKind::NoEffect, text).at(place).help("remove one of the two"))
+    }
+
     /// Returns true if the declaration names `symbol`.
     pub(super) fn names(&self, symbol: Symbol) -> bool {
         self.ignored.contains(&symbol)
             || self.considered.as_ref().is_some_and(|considered| considered.contains(&symbol))
     }
+}
+
+/// Warns if a system has both `ignore` and `consider`, after a call of one of them.
+pub(super) fn tell_conflict(library: &Library, lua: &Lua, of_system: &mut IgnoredModules) -> Result<()> {
+    let place = Machine::place(lua);
+    if let Some(warning) = of_system.conflict("system", place.clone()) {
+        library.machine()?.warn(warning);
+    }
+    of_system.place = of_system.place.take().or(place);
+    Ok(())
 }
 
 /// Returns the modules that the arguments of `ignore` or `consider` name.
