@@ -15,7 +15,7 @@ const MOST_PARTS: usize = 64;
 const OVERLAP: f64 = 0.01;
 
 /// Corners of a convex polygon.
-type Polygon = SmallVec<[DVec3; 8]>;
+type ConvexPolygon = SmallVec<[DVec3; 8]>;
 
 /// Returns parts of a triangle that contain all of its points farther than `limit` (m) from the triangles `covers`.
 ///
@@ -26,7 +26,7 @@ pub(super) fn uncovered(
     covers: &[TriangleCorners],
     limit: f64,
 ) -> Vec<TriangleCorners> {
-    let mut parts: Vec<Polygon> = vec![triangle.iter().copied().collect()];
+    let mut parts: Vec<ConvexPolygon> = vec![triangle.iter().copied().collect()];
     let mut next = Vec::new();
     for cover in covers {
         let Some(sides) = sides(cover) else { continue };
@@ -42,8 +42,9 @@ pub(super) fn uncovered(
             break;
         }
     }
-    let fan =
-        |part: &Polygon| (1..part.len() - 1).map(|at| [part[0], part[at], part[at + 1]]).collect::<Vec<_>>();
+    let fan = |part: &ConvexPolygon| {
+        (1..part.len() - 1).map(|at| [part[0], part[at], part[at + 1]]).collect::<Vec<_>>()
+    };
     parts.iter().flat_map(fan).collect()
 }
 
@@ -62,7 +63,11 @@ fn sides(corners: &TriangleCorners) -> Option<[HalfSpace; 3]> {
 }
 
 /// Returns the part of a polygon inside all half spaces, and adds the others to `outside`; `None` if there is no such part.
-fn cut(polygon: &Polygon, sides: &[HalfSpace; 3], outside: &mut Vec<Polygon>) -> Option<Polygon> {
+fn cut(
+    polygon: &ConvexPolygon,
+    sides: &[HalfSpace; 3],
+    outside: &mut Vec<ConvexPolygon>,
+) -> Option<ConvexPolygon> {
     let mut rest = polygon.clone();
     for side in sides {
         let [inside, beyond] = divide(&rest, side);
@@ -78,8 +83,8 @@ fn cut(polygon: &Polygon, sides: &[HalfSpace; 3], outside: &mut Vec<Polygon>) ->
 }
 
 /// Returns the parts of a polygon inside and outside a half space.
-fn divide(polygon: &Polygon, (direction, number): &HalfSpace) -> [Polygon; 2] {
-    let mut parts = [Polygon::new(), Polygon::new()];
+fn divide(polygon: &ConvexPolygon, (direction, number): &HalfSpace) -> [ConvexPolygon; 2] {
+    let mut parts = [ConvexPolygon::new(), ConvexPolygon::new()];
     let heights: SmallVec<[f64; 8]> = polygon.iter().map(|corner| direction.dot(*corner) - number).collect();
     for (at, corner) in polygon.iter().enumerate() {
         let following = (at + 1) % polygon.len();
@@ -99,7 +104,7 @@ fn divide(polygon: &Polygon, (direction, number): &HalfSpace) -> [Polygon; 2] {
 }
 
 /// Returns true if no corner is farther than `limit` (m) from a triangle.
-fn is_near(triangle: &TriangleCorners, corners: &Polygon, limit: f64) -> bool {
+fn is_near(triangle: &TriangleCorners, corners: &ConvexPolygon, limit: f64) -> bool {
     corners.iter().all(|corner| distance_squared(triangle, *corner) <= limit * limit)
 }
 

@@ -7,7 +7,7 @@ use burgeon_scene::{Instance, Scene};
 use rayon::prelude::*;
 
 use super::hausdorff::{NEAR, PART, hausdorff};
-use super::tree::{Bounds, TriangleCorners, TriangleTree};
+use super::tree::{TreeBounds, TriangleCorners, TriangleTree};
 
 /// Number of features that are measured at the same time.
 const GROUP: usize = 16;
@@ -84,7 +84,7 @@ impl<'a> FeatureDrawings<'a> {
 
 /// Returns the largest difference (m) between the bounds of two drawings of a feature; 0 if one of them has no triangles.
 fn bounds_difference<'a>(a: &FeatureDrawings<'a>, b: &FeatureDrawings<'a>, key: &FeatureKey<'a>) -> f64 {
-    let bounds = [a, b].map(|drawings| Bounds::of(drawings.triangles(key).flatten()));
+    let bounds = [a, b].map(|drawings| TreeBounds::of(drawings.triangles(key).flatten()));
     let [Some(a), Some(b)] = bounds else { return 0.0 };
     a.difference(&b)
 }

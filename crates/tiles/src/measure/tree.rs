@@ -8,14 +8,14 @@ pub(super) type TriangleCorners = [DVec3; 3];
 /// Largest number of triangles in a box that is not divided.
 const FEW: usize = 8;
 
-/// Bounds (m) of points along the axes.
+/// TreeBounds (m) of points along the axes.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Bounds {
+pub(super) struct TreeBounds {
     pub low: DVec3,
     pub high: DVec3,
 }
 
-impl Bounds {
+impl TreeBounds {
     /// Returns the bounds of points; `None` without points.
     pub(super) fn of(points: impl IntoIterator<Item = DVec3>) -> Option<Self> {
         let grow = |Self { low, high }: Self, point| Self { low: low.min(point), high: high.max(point) };
@@ -194,12 +194,12 @@ fn divide(
     items: &mut [TreeItem],
     first: usize,
     boxes: &mut Vec<TriangleBox>,
-) -> Bounds {
+) -> TreeBounds {
     let (index, count) = (boxes.len(), items.len());
     boxes.push(TriangleBox { low: DVec3::ZERO, high: DVec3::ZERO, first, count, second: 0 });
     let bounds = if count <= FEW {
-        Bounds::of(items.iter().flat_map(|item| triangles[item.number as usize]))
-            .unwrap_or(Bounds { low: DVec3::ZERO, high: DVec3::ZERO })
+        TreeBounds::of(items.iter().flat_map(|item| triangles[item.number as usize]))
+            .unwrap_or(TreeBounds { low: DVec3::ZERO, high: DVec3::ZERO })
     } else {
         let (low, high) = items.iter().fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), item| {
             (low.min(item.sum), high.max(item.sum))
@@ -212,7 +212,7 @@ fn divide(
         let a = divide(triangles, lower, first, boxes);
         boxes[index].second = boxes.len();
         let b = divide(triangles, upper, first + middle, boxes);
-        Bounds { low: a.low.min(b.low), high: a.high.max(b.high) }
+        TreeBounds { low: a.low.min(b.low), high: a.high.max(b.high) }
     };
     (boxes[index].low, boxes[index].high) = (bounds.low, bounds.high);
     bounds
