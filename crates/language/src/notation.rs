@@ -64,7 +64,7 @@ pub(crate) fn with_parameters(luau: &str) -> String {
 /// Merges several signatures into one. Arguments that not all of them have are optional.
 ///
 /// Luau infers the parameters of a function expression only if there is one signature and the argument's type is not a
-/// union.
+/// union. The alternative type `string` is therefore removed from arguments that only some signatures have.
 pub(crate) fn merge(forms: &[CallForm]) -> CallForm {
     let Some((first, others)) = forms.split_first() else { return CallForm::default() };
     let mut form = first.clone();
@@ -78,26 +78,20 @@ pub(crate) fn merge(forms: &[CallForm]) -> CallForm {
             match form.arguments.get_mut(index) {
                 Some(known) if known.luau == argument.luau => {}
                 Some(known) => {
-                    let luau = format!("{} | {}", of_union(&known.luau), in_place(argument));
+                    // In a union, the parameters of a function type must accept every possible argument, so they are
+                    // `never`.
+                    let known_luau = known.luau.replace("...any)", "...never)");
+                    let luau = format!("{known_luau} | {}", in_place(argument));
                     *known = Argument { luau, ..argument.clone() };
                 }
                 None => {
-                    let luau = match argument.luau.contains(" | ") {
-                        true => of_union(&argument.luau),
-                        false => argument.luau.clone(),
-                    };
+                    let luau = argument.luau.trim_end_matches(" | string");
                     form.arguments.push(Argument { luau: format!("({luau})?"), ..argument.clone() });
                 }
             }
         }
     }
     form
-}
-
-/// Returns a type as it stands in a union, where the parameters of a function type must accept every possible argument, so
-/// they are `never`.
-fn of_union(luau: &str) -> String {
-    luau.replace("...any)", "...never)")
 }
 
 /// Returns the type of an argument. If it is a table with fields, the table type is written out.

@@ -4,7 +4,7 @@ local reports = {}
 
 -- The warning about land that remains much larger than its blocks.
 local function warn_of_land(land: { any })
-  table.sort(land, function(a, b)
+  table.sort(land, function(a: any, b: any)
     if a.area ~= b.area then
       return a.area > b.area
     end
@@ -19,7 +19,7 @@ end
 
 -- The warning about sectors with a failed outline.
 local function warn_of_outline(open: { any })
-  table.sort(open, function(a, b)
+  table.sort(open, function(a: any, b: any)
     return a.x < b.x or a.x == b.x and a.y < b.y
   end)
   warn(
