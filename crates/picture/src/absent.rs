@@ -1,6 +1,7 @@
 //! Stubs of the renderer, for builds without the feature `pictures`.
 
 use super::settings::Picture;
+use crate::ModelSight;
 use burgeon_base::error::Result;
 use burgeon_base::stop::Stop;
 use burgeon_scene::image::{self, Image};
@@ -64,19 +65,6 @@ pub fn pose(_scene: &Scene, view: &CameraView, _aspect: f64) -> Result<CameraPos
 /// Returns false, because nothing is measured.
 pub fn is_inside(_scene: &Scene, _point: DVec3) -> Result<bool> {
     Ok(false)
-}
-
-/// Part of a model that a render shows.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ModelSight {
-    /// Pixels of the model, or the scene shows nothing from any side.
-    Seen,
-    /// None: the model is outside of the picture.
-    Outside,
-    /// None: the model is smaller than a pixel.
-    Speck,
-    /// None: its faces are seen from behind, transparent, or thinner than a pixel.
-    Hidden,
 }
 
 /// Fails, because rendering is not available.

@@ -10,11 +10,11 @@
 )]
 
 mod settings;
+mod sight;
 
 #[cfg_attr(not(feature = "pictures"), path = "absent.rs")]
 mod renderer;
 
-pub use renderer::{
-    CameraPose, Extent, ModelSight, is_inside, pose, render, render_with_sight, render_within,
-};
+pub use renderer::{CameraPose, Extent, is_inside, pose, render, render_with_sight, render_within};
 pub use settings::{Background, CameraChoice, Picture, Quality, SunPosition, ViewBall};
+pub use sight::ModelSight;

@@ -57,7 +57,7 @@ mod tests {
     }
 
     /// Returns the area of the triangles, each of which is to the left of its edges.
-    fn filled(rings: &[Vec<DVec2>]) -> f64 {
+    fn triangulated_area(rings: &[Vec<DVec2>]) -> f64 {
         let points: Vec<DVec2> = rings.iter().flatten().copied().collect();
         let triangles = triangulate(rings).expect("rings that touch at points");
         let areas = triangles.iter().map(|corners| twice_area(corners.map(|corner| points[corner])) / 2.0);
@@ -69,17 +69,17 @@ mod tests {
         let square = ring(&[(0., 0.), (4., 0.), (4., 4.), (0., 4.)]);
         let at_border = ring(&[(0., 2.), (1., 3.), (2., 2.), (1., 1.)]);
         let outline = ring(&[(0., 0.), (4., 0.), (4., 4.), (0., 4.), (0., 2.)]);
-        assert!((filled(&[outline, at_border]) - 14.0).abs() < 1e-12);
+        assert!((triangulated_area(&[outline, at_border]) - 14.0).abs() < 1e-12);
         let low = ring(&[(1., 1.), (1., 2.), (2., 2.), (2., 1.)]);
         let high = ring(&[(2., 2.), (2., 3.), (3., 3.), (3., 2.)]);
-        assert!((filled(&[square, low, high]) - 14.0).abs() < 1e-12);
+        assert!((triangulated_area(&[square, low, high]) - 14.0).abs() < 1e-12);
     }
 
     #[test]
-    fn a_ring_that_touches_itself_is_filled() {
+    fn a_ring_that_touches_itself_is_triangulated_area() {
         // Two squares that share a corner, as one ring.
         let pair = ring(&[(0., 0.), (1., 0.), (1., 1.), (2., 1.), (2., 2.), (1., 2.), (1., 1.), (0., 1.)]);
-        assert!((filled(&[pair]) - 2.0).abs() < 1e-12);
+        assert!((triangulated_area(&[pair]) - 2.0).abs() < 1e-12);
     }
 
     #[test]

@@ -2,7 +2,8 @@
 
 use super::samples::{boxes, twisted_tower};
 use super::tests::{count_covered, places, small, wall};
-use super::{ModelSight, render, render_with_sight};
+use super::{render, render_with_sight};
+use crate::ModelSight;
 use crate::{CameraChoice, Picture};
 use burgeon_base::stop::Stop;
 use burgeon_scene::{CameraView, FittedView, Material, Scene, SceneCamera};

@@ -40,4 +40,4 @@ mod visible;
 
 pub use extent::Extent;
 pub use pose::{CameraPose, is_inside, pose};
-pub use render::{ModelSight, render, render_with_sight, render_within};
+pub use render::{render, render_with_sight, render_within};

@@ -3,6 +3,7 @@
 use super::pose::picture_camera;
 use super::reflection::Tracer;
 use super::{Extent, camera, detail, develop, floor, shade, sky, stage, sun, texture};
+use crate::ModelSight;
 use crate::settings::{Picture, Quality};
 use burgeon_base::error::Result;
 use burgeon_base::stop::Stop;
@@ -68,19 +69,6 @@ pub fn render_within(
     develop_within(scene, extent, picture, stop).map(|(image, _)| image)
 }
 
-/// Part of a model that a render shows.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ModelSight {
-    /// Pixels of the model, or the scene shows nothing from any side.
-    Seen,
-    /// None: the model is outside of the picture.
-    Outside,
-    /// None: the model is smaller than a pixel.
-    Speck,
-    /// None: its faces are seen from behind, transparent, or thinner than a pixel.
-    Hidden,
-}
-
 /// Renders `scene` as [`render`] does, and determines if the image shows the model. Fails if `stop` requests cancellation too.
 ///
 /// ```
@@ -131,13 +119,13 @@ fn develop_within(
     let sight = if is_seen || stage.triangles() == 0 {
         ModelSight::Seen
     } else {
-        missed(&stage, &camera, [picture.width, picture.height])
+        reason_unseen(&stage, &camera, [picture.width, picture.height])
     };
     Ok((image, sight))
 }
 
 /// Returns the reason why an image of `size` (pixels) shows nothing of the model.
-fn missed(stage: &stage::Stage, camera: &camera::Camera, size: [u32; 2]) -> ModelSight {
+fn reason_unseen(stage: &stage::Stage, camera: &camera::Camera, size: [u32; 2]) -> ModelSight {
     let [width, height] = size.map(|side| side as f32);
     let pixels = stage.hull.iter().map(|point| camera.project(camera.view.transform_point3a(*point)));
     let inside = pixels

@@ -9,7 +9,7 @@ use super::tree::{TriangleCorners, distance_squared};
 pub(super) const MOST_COVERS: usize = 48;
 
 /// Maximum number of parts that are left of a triangle while it is covered.
-const MOST_PARTS: usize = 64;
+const MOST_PARTS: usize = 32;
 
 /// Distance (m) across the edges of a triangle up to which it covers others, so that no slivers are left between neighbours.
 const OVERLAP: f64 = 0.01;
@@ -21,7 +21,7 @@ type ConvexPolygon = SmallVec<[DVec3; 8]>;
 ///
 /// A triangle covers what its sides, moved outwards a little, cut out of another one, if no corner of this part is too far away:
 /// the distance from a triangle is convex, so it is largest in a corner.
-pub(super) fn uncovered(
+pub(super) fn uncovered_parts(
     triangle: &TriangleCorners,
     covers: &[TriangleCorners],
     limit: f64,
@@ -127,7 +127,7 @@ mod tests {
         fn all_points_that_are_far_from_the_covers_are_left(
             triangle in triangle(), covers in prop::collection::vec(triangle(), 0..12), limit in 0.0..0.6_f64,
         ) {
-            let left = uncovered(&triangle, &covers, limit);
+            let left = uncovered_parts(&triangle, &covers, limit);
             let [a, b, c] = triangle;
             prop_assert!(left.iter().map(area).sum::<f64>() <= area(&triangle) + 1e-9);
             for i in 0..=30 {
@@ -155,9 +155,9 @@ mod tests {
                 .collect()
         };
         let wall = [at(0.0, 0.0, 0.0), at(5.0, 0.0, 0.0), at(5.0, 4.0, 0.0)];
-        assert!(uncovered(&wall, &panels(0.0), 0.05).is_empty());
-        assert!(uncovered(&wall, &panels(0.15), 0.2).is_empty());
-        let left: f64 = uncovered(&wall, &panels(0.3), 0.2).iter().map(area).sum();
+        assert!(uncovered_parts(&wall, &panels(0.0), 0.05).is_empty());
+        assert!(uncovered_parts(&wall, &panels(0.15), 0.2).is_empty());
+        let left: f64 = uncovered_parts(&wall, &panels(0.3), 0.2).iter().map(area).sum();
         assert!((left - 5.0).abs() < 0.3, "{left}");
     }
 }

@@ -5,7 +5,7 @@ use std::collections::BinaryHeap;
 
 use glam::DVec3;
 
-use super::cover::{MOST_COVERS, uncovered};
+use super::cover::{MOST_COVERS, uncovered_parts};
 use super::tree::{TriangleCorners, TriangleTree, distance_squared};
 
 /// Tolerance of distances, as a part of them.
@@ -16,6 +16,9 @@ pub(super) const NEAR: f64 = 0.2;
 
 /// Largest number of boxes and parts of triangles that are divided for a distance.
 const MOST: usize = 50_000;
+
+/// Largest number of triangles whose parts that others cover are found for a distance, which takes up to a millisecond for each.
+const MOST_COVERED: usize = 2000;
 
 /// Part of a mesh, and an upper bound of the distance (m) of its points.
 struct MeshPart {
@@ -79,7 +82,7 @@ pub fn one_sided(a: &TriangleTree, b: &TriangleTree, known: f64) -> f64 {
     if a.triangles().is_empty() || b.triangles().is_empty() {
         return known.max(a.diagonal()).max(b.diagonal());
     }
-    let mut search = DistanceSearch { a, b, largest: known, heap: BinaryHeap::new() };
+    let mut search = DistanceSearch { a, b, largest: known, heap: BinaryHeap::new(), cover_searches: 0 };
     search.add_box(0);
     for _ in 0..MOST {
         let Some(MeshPart { bound, shape }) = search.heap.pop() else { break };
@@ -100,6 +103,8 @@ struct DistanceSearch<'a> {
     largest: f64,
     /// Parts of `a`, with the largest bound first.
     heap: BinaryHeap<MeshPart>,
+    /// Number of triangles of `a` whose parts that `b` covers were found.
+    cover_searches: usize,
 }
 
 impl DistanceSearch<'_> {
@@ -117,14 +122,19 @@ impl DistanceSearch<'_> {
                     own.for_each(|corners| self.add_triangle(*corners, PartShape::Triangle));
                 }
             },
-            PartShape::Triangle(corners) => match self.b.near(&corners, self.limit(), MOST_COVERS) {
-                Some(covers) => {
-                    let left = uncovered(&corners, &covers, self.limit());
-                    left.into_iter().for_each(|corners| self.add_triangle(corners, PartShape::Uncovered));
+            PartShape::Triangle(corners) if self.cover_searches < MOST_COVERED => {
+                match self.b.near(&corners, self.limit(), MOST_COVERS) {
+                    Some(covers) => {
+                        self.cover_searches += 1;
+                        let left = uncovered_parts(&corners, &covers, self.limit());
+                        left.into_iter().for_each(|corners| self.add_triangle(corners, PartShape::Uncovered));
+                    }
+                    None => self.add_quarters(corners, PartShape::Triangle),
                 }
-                None => self.add_quarters(corners, PartShape::Triangle),
-            },
-            PartShape::Uncovered(corners) => self.add_quarters(corners, PartShape::Uncovered),
+            }
+            PartShape::Triangle(corners) | PartShape::Uncovered(corners) => {
+                self.add_quarters(corners, PartShape::Uncovered)
+            }
         }
     }
 
