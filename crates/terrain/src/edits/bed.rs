@@ -1,5 +1,7 @@
 //! Beds: constraints of objects on the ground, which is level with the bed and limited in slope next to it.
 
+use std::ops::Range;
+
 use burgeon_geometry::planar::{contains, foot};
 use glam::DVec2;
 use serde::{Deserialize, Serialize};
@@ -25,18 +27,25 @@ impl GroundBed {
         self.width / 2.0 + self.margin
     }
 
+    /// Returns the segments of the line to search: all of an area, `near` of a path.
+    pub(crate) fn segments(&self, near: Range<usize>) -> Range<usize> {
+        if self.is_area { 0..self.line.len() } else { near }
+    }
+
     /// Returns the distance (m) of a point from the bed and the bed's height (m) at its nearest point; `None`
-    /// beyond the margin.
-    pub(crate) fn distance_beside(&self, place: DVec2) -> Option<(f64, f64)> {
-        let flat: Vec<[f64; 2]> = self.line.iter().map(|[x, y, _]| [*x, *y]).collect();
-        let (mut distance, piece, along) = to_line(&flat, place, self.is_area);
+    /// beyond the margin. The other segments than `segments` must be beyond the margin.
+    pub(crate) fn distance_beside(&self, place: DVec2, segments: Range<usize>) -> Option<(f64, f64)> {
+        let (mut distance, piece, along) = to_line(&self.line, place, segments);
         let next = self.line.get((piece + 1) % self.line.len().max(1));
         let height = match (self.line.get(piece), next) {
             (Some(from), Some(to)) => mix(from[2], to[2], along),
             _ => return None,
         };
-        if self.is_area && contains(&flat, place) {
-            distance = 0.0;
+        if self.is_area {
+            let outline: Vec<[f64; 2]> = self.line.iter().map(|[x, y, _]| [*x, *y]).collect();
+            if contains(&outline, place) {
+                distance = 0.0;
+            }
         }
         let beyond = (distance - self.width / 2.0).max(0.0);
         (beyond <= self.margin).then_some((beyond, height))
@@ -49,13 +58,16 @@ pub(crate) fn mix(a: f64, b: f64, part: f64) -> f64 {
     if part >= 1.0 { b } else { a + (b - a) * part }
 }
 
-/// Returns the distance (m) of `place` from a line, the index of the nearest segment, and the position (0 to
-/// 1) along it.
-pub(crate) fn to_line(points: &[[f64; 2]], place: DVec2, closed: bool) -> (f64, usize, f64) {
-    let count = if closed { points.len() } else { points.len().saturating_sub(1) };
+/// Returns the distance (m) of `place` from segments of a line, the index of the nearest segment, and the position (0 to
+/// 1) along it. The segment after the last point ends at the first point. Positions begin with x and y (m).
+pub(crate) fn to_line<const N: usize>(
+    points: &[[f64; N]],
+    place: DVec2,
+    segments: Range<usize>,
+) -> (f64, usize, f64) {
     let mut best = (f64::INFINITY, 0, 0.0);
-    for piece in 0..count {
-        let edge = [points[piece], points[(piece + 1) % points.len()]].map(DVec2::from);
+    for piece in segments {
+        let edge = [points[piece], points[(piece + 1) % points.len()]].map(|at| DVec2::new(at[0], at[1]));
         let along = foot(edge, place);
         let distance = place.distance(edge[0] + (edge[1] - edge[0]) * along);
         if distance < best.0 {
@@ -104,10 +116,13 @@ mod tests {
                 let place = DVec2::new(stream.uniform() - 0.5, stream.uniform() - 0.5) * 500.0;
                 let ground = 12.0 * (place.x / 40.0).sin();
                 let height = local.at(place, ground);
-                let one_by_one = edits.iter().fold(ground, |height, edit| edit.change(place, height));
+                let one_by_one = edits
+                    .iter()
+                    .fold(ground, |height, edit| edit.change(place, height, 0..edit.extents().len()));
                 assert_eq!(height.to_bits(), one_by_one.to_bits(), "at {place}");
-                let near: Vec<(f64, f64)> =
-                    beds.iter().filter_map(|bed| bed.distance_beside(place)).collect();
+                let beside =
+                    |bed: &GroundBed| bed.distance_beside(place, bed.segments(0..bed.line.len() - 1));
+                let near: Vec<(f64, f64)> = beds.iter().filter_map(beside).collect();
                 for (beyond, level) in &near {
                     assert!(height <= level + 0.6 * beyond + 1e-9);
                 }

@@ -1,5 +1,7 @@
 //! Terrain edits: level areas, cuttings, ditches, and the beds of objects.
 
+use std::ops::Range;
+
 use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
@@ -73,46 +75,70 @@ impl Edit {
         self
     }
 
-    /// Returns the corners (m) of the bounding box of the edit's extent.
-    pub(crate) fn bounds(&self) -> (DVec2, DVec2) {
-        let (points, reach): (Vec<DVec2>, f64) = match self {
-            Self::Flatten { outline, margin, .. } => {
-                (outline.iter().map(|at| DVec2::from(*at)).collect(), *margin)
-            }
-            Self::Cut { path, width, margin } | Self::Carve { path, width, margin } => {
-                (path.iter().map(|[x, y, _]| DVec2::new(*x, *y)).collect(), width / 2.0 + margin)
-            }
-            Self::Dig { path, width, .. } => (path.iter().map(|at| DVec2::from(*at)).collect(), width / 2.0),
-            Self::Embank { bed } | Self::Excavate { bed } => {
-                (bed.line.iter().map(|[x, y, _]| DVec2::new(*x, *y)).collect(), bed.reach())
-            }
+    /// Returns the corners (m) of the bounding box of the extent of each segment of a path, in their order; of an area, of
+    /// the whole extent.
+    pub(crate) fn extents(&self) -> Vec<(DVec2, DVec2)> {
+        let of = |points: &mut dyn Iterator<Item = DVec2>, reach: f64| {
+            let start = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+            let (low, high) = points.fold(start, |(low, high), at| (low.min(at), high.max(at)));
+            (low - reach, high + reach)
         };
-        let low = points.iter().fold(DVec2::INFINITY, |low, at| low.min(*at));
-        let high = points.iter().fold(DVec2::NEG_INFINITY, |high, at| high.max(*at));
-        (low - reach, high + reach)
+        fn flat<const N: usize>(points: &[[f64; N]]) -> impl Iterator<Item = DVec2> {
+            points.iter().map(|at| DVec2::new(at[0], at[1]))
+        }
+        fn pairs<const N: usize>(path: &[[f64; N]], reach: f64) -> Vec<(DVec2, DVec2)> {
+            let of = |pair: &[[f64; N]]| {
+                let [from, to] = [pair[0], pair[1]].map(|at| DVec2::new(at[0], at[1]));
+                (from.min(to) - reach, from.max(to) + reach)
+            };
+            path.windows(2).map(of).collect()
+        }
+        match self {
+            Self::Flatten { outline, margin, .. } => vec![of(&mut flat(outline), *margin)],
+            Self::Cut { path, width, margin } | Self::Carve { path, width, margin } => {
+                pairs(path, width / 2.0 + margin)
+            }
+            Self::Dig { path, width, .. } => pairs(path, width / 2.0),
+            Self::Embank { bed } | Self::Excavate { bed } if bed.is_area => {
+                vec![of(&mut flat(&bed.line), bed.reach())]
+            }
+            Self::Embank { bed } | Self::Excavate { bed } => pairs(&bed.line, bed.reach()),
+        }
     }
 
-    /// Returns the new height (m) at `place` (m), given the previous height (m).
-    pub(crate) fn change(&self, place: DVec2, height: f64) -> f64 {
+    /// Returns the corners (m) of the bounding box of the edit's extent.
+    pub(crate) fn bounds(&self) -> (DVec2, DVec2) {
+        let start = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+        self.extents()
+            .into_iter()
+            .fold(start, |(low, high), (south_west, north_east)| (low.min(south_west), high.max(north_east)))
+    }
+
+    /// Returns the new height (m) at `place` (m), given the previous height (m). The point must be outside the extents of
+    /// the other segments of a path than `segments`.
+    pub(crate) fn change(&self, place: DVec2, height: f64, segments: Range<usize>) -> f64 {
         match self {
             Self::Flatten { outline, height: level, margin } => {
-                let distance = if contains(outline, place) { 0.0 } else { to_line(outline, place, true).0 };
+                let distance =
+                    if contains(outline, place) { 0.0 } else { to_line(outline, place, 0..outline.len()).0 };
                 mix(height, *level, fade(distance, *margin))
             }
-            Self::Cut { path, width, margin } => along_path(path, *width, *margin, place, height),
+            Self::Cut { path, width, margin } => {
+                along_path(path, (*width, *margin), (place, segments), height)
+            }
             Self::Carve { path, width, margin } => {
-                height.min(along_path(path, *width, *margin, place, height))
+                height.min(along_path(path, (*width, *margin), (place, segments), height))
             }
             Self::Dig { path, width, depth } => {
-                let (distance, ..) = to_line(path, place, false);
+                let (distance, ..) = to_line(path, place, segments);
                 let across = (1.0 - distance / (width / 2.0)).clamp(0.0, 1.0);
                 height - depth * across * across * (3.0 - 2.0 * across)
             }
             Self::Embank { bed } => bed
-                .distance_beside(place)
+                .distance_beside(place, bed.segments(segments))
                 .map_or(height, |(beyond, level)| height.max(level - beyond * bed.slope)),
             Self::Excavate { bed } => bed
-                .distance_beside(place)
+                .distance_beside(place, bed.segments(segments))
                 .map_or(height, |(beyond, level)| height.min(level + beyond * bed.slope)),
         }
     }
@@ -157,11 +183,15 @@ impl Edit {
     }
 }
 
-/// Returns the height (m) at `place` (m) after adapting the ground to a path of `width` (m), given the
-/// previous height (m).
-fn along_path(path: &[[f64; 3]], width: f64, margin: f64, place: DVec2, height: f64) -> f64 {
-    let flat: Vec<[f64; 2]> = path.iter().map(|[x, y, _]| [*x, *y]).collect();
-    let (distance, piece, along) = to_line(&flat, place, false);
+/// Returns the height (m) at a place (m) after adapting the ground to segments of a path of a width (m) with a margin (m), given
+/// the previous height (m).
+fn along_path(
+    path: &[[f64; 3]],
+    (width, margin): (f64, f64),
+    (place, segments): (DVec2, Range<usize>),
+    height: f64,
+) -> f64 {
+    let (distance, piece, along) = to_line(path, place, segments);
     let level = match path.get(piece + 1) {
         Some(next) => mix(path[piece][2], next[2], along),
         None => path[piece][2],

@@ -378,6 +378,9 @@ impl Ground {
         let Some(tile) = self.coarsest(x, y) else { return DVec3::Z };
         let step = 1i64 << (self.finest - tile.level());
         let size = self.world.cell(tile.level());
+        if let Some(normal) = self.normal_within(tile, x, y) {
+            return normal;
+        }
         let here = self.corner(x, y).unwrap_or(0.0);
         let slope = |low: Option<f64>, high: Option<f64>| match (low, high) {
             (Some(low), Some(high)) => (high - low) / (2.0 * size),
@@ -388,6 +391,24 @@ impl Ground {
         let east = slope(self.corner(x - step, y), self.corner(x + step, y));
         let north = slope(self.corner(x, y + step), self.corner(x, y - step));
         DVec3::new(-east, -north, 1.0).normalize()
+    }
+
+    /// Returns the surface normal (a unit vector) at a corner of the smallest cells; `None` unless the corner and its
+    /// neighbours are corners of cells inside `tile`.
+    fn normal_within(&self, tile: &Tile, x: i64, y: i64) -> Option<DVec3> {
+        let (x, y) = tile.on_grid(self.finest, x, y)?;
+        let first = (tile.place.x << tile.detail, tile.place.y << tile.detail);
+        let last = (1i64 << tile.detail) - 1;
+        let is_within = |at: i64, first: i64| at - first > 1 && at - first < last;
+        if !is_within(x, first.0) || !is_within(y, first.1) {
+            return None;
+        }
+        let measured = self.world.measured.is_some();
+        let at = |x: i64, y: i64| if measured { tile.ground(x, y) } else { tile.corner(x, y) };
+        let step = 2.0 * self.world.cell(tile.level());
+        let east = (at(x + 1, y) - at(x - 1, y)) / step;
+        let north = (at(x, y - 1) - at(x, y + 1)) / step;
+        Some(DVec3::new(-east, -north, 1.0).normalize())
     }
 
     /// Returns the surface normal (a unit vector) at `place` (m), interpolated between the corners of cells;
