@@ -47,7 +47,7 @@ end
 local lanes = roads.grow({
   pattern = roads.contours(height, { block = 62, branching = 0.5, steepest = 5 }),
   extent = extent,
-  steps = math.ceil(extent / 16),
+  steps = math.ceil(extent / 6),
   deepest = 2,
   join = 90,
   detour = 2,

@@ -341,3 +341,30 @@ fn cells_are_called_as_the_rules_of_their_level_call_them() {
     assert!("EFGH".contains(name(0.0)) && "ABCD".contains(name(900.0)), "{} {}", name(0.0), name(900.0));
     assert!(!name(0.0).is_empty() && !name(900.0).is_empty());
 }
+
+#[test]
+fn a_reader_of_rows_finds_the_ground_of_each_point() {
+    let mut stream = Stream::new(9);
+    let mut ground = Ground::new(Arc::new(world(3, false, false)));
+    let eye = eye(&mut stream);
+    ground.focus(eye, &view(), &Tables).unwrap();
+    let mut read = 0;
+    for row in 0..200 {
+        // Rows pass tiles of each level, their borders, corners of cells and the end of the expanded area.
+        let mut place = eye + DVec2::new(-9000.0, stream.uniform() * 4000.0 - 2000.0);
+        let step = if row % 2 == 0 { 32.0 } else { stream.uniform() * 60.0 };
+        if row % 4 == 0 {
+            place = (place / 32.0).floor() * 32.0;
+        }
+        let mut reader = GroundReader::new(&ground);
+        for _ in 0..600 {
+            let sample = reader.at(place);
+            assert_eq!(sample.map(|sample| sample.height.to_bits()), ground.height(place).map(f64::to_bits));
+            assert_eq!(sample.map(|sample| sample.normal), ground.way_up(place), "at {place}");
+            assert_eq!(sample.map(|sample| sample.symbol), ground.symbol(place));
+            read += usize::from(sample.is_some());
+            place.x += step;
+        }
+    }
+    assert!(read > 20_000, "{read} points");
+}

@@ -26,7 +26,7 @@ pub(super) fn of(
     let plain = [0, 1, 2].map(|at| options.color.0[at]);
     let across = texels(tile, 2);
     let whole = across + 2 * MARGIN;
-    let bytes = image(whole, |column, row| {
+    let color = |column: usize, row: usize| {
         let [column, row] = [column, row].map(|at| at.saturating_sub(MARGIN).min(across - 1));
         let spot = relief.spot(options, globe, (face, tile), (column, row, across));
         let water = options.water.as_ref().filter(|water| spot.height < water.level);
@@ -43,6 +43,10 @@ pub(super) fn of(
             }
         }
         color
+    };
+    let bytes = image(whole, |row| {
+        let color = &color;
+        move |column| color(column, row)
     });
     #[allow(clippy::cast_precision_loss, reason = "texels are few")]
     let size = texel(globe, tile) * (whole - 1) as f64;

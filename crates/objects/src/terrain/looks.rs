@@ -9,7 +9,7 @@ use burgeon_base::error::Result;
 use burgeon_base::{MemoryOwner, srgb_byte};
 use burgeon_kit::{Color, Expectation, Field, Parameter, Table, Value, fields};
 use burgeon_scene::{Material, Texture};
-use burgeon_terrain::{Ground, Tile};
+use burgeon_terrain::{Ground, GroundReader, Tile};
 
 use super::mask::{GroundPoint, Mask};
 
@@ -64,11 +64,14 @@ pub(super) fn paint(ground: &Ground, tile: &Tile, covers: &[GroundCover]) -> (Ve
     let step = size / (across - 1) as f64;
     let reach = ground.world().cell(tile.level());
     let bent = covers.iter().any(|cover| cover.on.is_bent());
-    let bytes = image(across, |column, row| {
-        #[allow(clippy::cast_precision_loss, reason = "texels are few")]
-        let offset = DVec2::new(column as f64, (across - 1 - row) as f64) * step;
-        let place = (corner + offset).min(corner + size);
-        blend(&GroundPoint::new(ground, place, reach, bent), covers)
+    let bytes = image(across, |row| {
+        let mut reader = GroundReader::new(ground);
+        move |column| {
+            #[allow(clippy::cast_precision_loss, reason = "texels are few")]
+            let offset = DVec2::new(column as f64, (across - 1 - row) as f64) * step;
+            let place = (corner + offset).min(corner + size);
+            blend(&GroundPoint::new(&mut reader, place, reach, bent), covers)
+        }
     });
     (bytes, across)
 }
@@ -78,10 +81,16 @@ pub(crate) fn texels(tile: &Tile, fine: usize) -> usize {
     ((1usize << tile.detail) * fine).min(MOST_TEXELS) + 1
 }
 
-/// Creates an image with `across` texels per side. `color` returns the colour of each texel, by its column and its row
-/// from the north.
-pub(crate) fn image(across: usize, color: impl Fn(usize, usize) -> [f32; 3] + Sync) -> Vec<u8> {
-    let row = |row: usize| (0..across).flat_map(|column| color(column, row).map(srgb_byte)).collect();
+/// Creates an image with `across` texels per side. `colors` takes the number of a row from the north, and returns a function
+/// that is called for the columns of the row from the west, and returns the colour of each texel.
+pub(crate) fn image<F: FnMut(usize) -> [f32; 3]>(
+    across: usize,
+    colors: impl Fn(usize) -> F + Sync,
+) -> Vec<u8> {
+    let row = |row: usize| {
+        let mut color = colors(row);
+        (0..across).flat_map(|column| color(column).map(srgb_byte)).collect()
+    };
     let owner = MemoryOwner::current();
     let rows: Vec<Vec<u8>> = (0..across).into_par_iter().map(|number| owner.charge(|| row(number))).collect();
     rows.concat()

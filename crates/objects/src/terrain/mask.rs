@@ -6,7 +6,7 @@ use glam::{DVec2, DVec3};
 
 use burgeon_base::error::{Error, Result};
 use burgeon_kit::{Expectation, Field, Parameter, Table, Value, fields};
-use burgeon_terrain::{Ground, World, octaves, octaves_around};
+use burgeon_terrain::{GroundReader, World, octaves, octaves_around};
 
 /// The locations of a cover or of plants.
 #[fields("on")]
@@ -95,11 +95,13 @@ pub(crate) struct GroundPoint<'a> {
 }
 
 impl<'a> GroundPoint<'a> {
-    /// Returns the ground at `place` (m). If `bent`, computes its curvature over `reach` (m).
-    pub(super) fn new(ground: &'a Ground, place: DVec2, reach: f64, bent: bool) -> Self {
-        let height = ground.height(place).unwrap_or(0.0);
-        let up = ground.way_up(place).unwrap_or(DVec3::Z);
-        let beside = |x: f64, y: f64| ground.height(place + DVec2::new(x, y) * reach).unwrap_or(height);
+    /// Returns the ground at `place` (m), read by `reader`. If `bent`, computes its curvature over `reach` (m).
+    pub(super) fn new(reader: &mut GroundReader<'a>, place: DVec2, reach: f64, bent: bool) -> Self {
+        let sample = reader.at(place);
+        let height = sample.map_or(0.0, |sample| sample.height);
+        let up = sample.map_or(DVec3::Z, |sample| sample.normal);
+        let beside =
+            |x: f64, y: f64| reader.ground().height(place + DVec2::new(x, y) * reach).unwrap_or(height);
         let curvature = if bent {
             let around = beside(1.0, 0.0) + beside(-1.0, 0.0) + beside(0.0, 1.0) + beside(0.0, -1.0);
             (around - 4.0 * height) / (reach * reach)
@@ -107,7 +109,7 @@ impl<'a> GroundPoint<'a> {
             0.0
         };
         let slope = up.z.clamp(-1.0, 1.0).acos().to_degrees();
-        let symbol = ground.symbol(place);
+        let symbol = sample.map(|sample| sample.symbol);
         Self { place: PatchPlace::Flat(place), height, slope, curvature, latitude: 0.0, symbol }
     }
 }

@@ -12,7 +12,7 @@ use burgeon_base::error::{Error, Limit, Result};
 use burgeon_base::random::Stream;
 use burgeon_base::{MemoryOwner, Stop};
 use burgeon_kit::{Drawing, Expectation, Field, Model, Parameter, Table, Value, fields};
-use burgeon_terrain::Ground;
+use burgeon_terrain::{Ground, GroundReader};
 
 /// Models that are scattered over the ground.
 #[fields("plants")]
@@ -140,7 +140,7 @@ impl Plants {
         let place = ground.world().corner + (DVec2::new(x as f64, y as f64) + along) * cell;
         // Plants stand on the visible triangles of the ground.
         let shown = ground.shown_height(place)?;
-        let spot = GroundPoint::new(ground, place, reach, self.on.is_bent());
+        let spot = GroundPoint::new(&mut GroundReader::new(ground), place, reach, self.on.is_bent());
         if luck >= chance * self.on.at(&spot, key.0) {
             return None;
         }

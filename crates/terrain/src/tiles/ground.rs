@@ -273,7 +273,7 @@ impl Ground {
 
     /// Returns the height (m) of the cells' surface at a corner of the smallest cells; `None` outside the
     /// expanded area.
-    fn surface_height(&self, x: i64, y: i64) -> Option<f64> {
+    pub(super) fn surface_height(&self, x: i64, y: i64) -> Option<f64> {
         let tile = self.coarsest(x, y)?;
         if let Some((x, y)) = tile.on_grid(self.finest, x, y) {
             return Some(tile.corner(x, y));
@@ -288,7 +288,7 @@ impl Ground {
 
     /// Interpolates a surface with the heights (m) `corner` at corners of the smallest cells; returns its
     /// height (m) within a cell of `tile`, at the fraction `part` to the east and to the south.
-    fn interpolate(
+    pub(super) fn interpolate(
         &self,
         tile: &Tile,
         (x, y): (i64, i64),
@@ -331,7 +331,12 @@ impl Ground {
     pub fn height(&self, place: DVec2) -> Option<f64> {
         let (tile, cell, part) = self.find(place)?;
         let laid = self.interpolate(tile, cell, part, |x, y| self.surface_height(x, y))?;
-        Some(if self.world.measured.is_some() { tile.changed(place, &self.world, laid) } else { laid })
+        Some(self.complete(tile, place, laid))
+    }
+
+    /// Returns the height (m) of the ground at `place` (m), where the surface of the cells of `tile` has the height `laid` (m).
+    pub(super) fn complete(&self, tile: &Tile, place: DVec2, laid: f64) -> f64 {
+        if self.world.measured.is_some() { tile.changed(place, &self.world, laid) } else { laid }
     }
 
     /// Returns the height (m) at `place` (m) of the surface that the cells show; `None` outside the expanded
@@ -344,7 +349,7 @@ impl Ground {
     /// Returns the tile at `place` (m), its cell, and the position (0 to 1) to the east and to the south
     /// within the cell.
     #[allow(clippy::cast_possible_truncation, clippy::cast_precision_loss, reason = "columns are below 2^31")]
-    fn find(&self, place: DVec2) -> Option<(&Arc<Tile>, (i64, i64), DVec2)> {
+    pub(super) fn find(&self, place: DVec2) -> Option<(&Arc<Tile>, (i64, i64), DVec2)> {
         let world = &self.world;
         let along = DVec2::new(place.x - world.corner.x, world.corner.y + world.size - place.y);
         // A point on the boundary may be outside by its rounding error.
