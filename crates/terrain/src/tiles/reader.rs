@@ -1,0 +1,92 @@
+//! Reading of the ground at points that are near each other.
+
+use glam::{DVec2, DVec3};
+
+use super::ground::Ground;
+use super::tile::Tile;
+
+/// Ground at a point.
+#[derive(Debug, Clone, Copy)]
+pub struct GroundSample<'a> {
+    /// Height (m), as [`Ground::height`] returns it.
+    pub height: f64,
+    /// Surface normal (a unit vector), as [`Ground::way_up`] returns it.
+    pub normal: DVec3,
+    /// Name of the symbol of the cell.
+    pub symbol: &'a str,
+}
+
+/// Reader of the ground at one point after another. Points in the same cell or in the next one share the corners of cells,
+/// whose normals take most of the time.
+pub struct GroundReader<'a> {
+    ground: &'a Ground,
+    last: Option<CellCorners>,
+}
+
+/// Heights (m) and normals at the corners of a cell: north-west, north-east, south-west and south-east.
+#[derive(Debug, Clone, Copy)]
+struct CellCorners {
+    level: u32,
+    cell: (i64, i64),
+    heights: [Option<f64>; 4],
+    normals: [DVec3; 4],
+}
+
+impl<'a> GroundReader<'a> {
+    /// Creates a reader of `ground`.
+    pub fn new(ground: &'a Ground) -> Self {
+        Self { ground, last: None }
+    }
+
+    /// Returns the ground that is read.
+    pub fn ground(&self) -> &'a Ground {
+        self.ground
+    }
+
+    /// Returns the ground at `place` (m); `None` outside the expanded area.
+    pub fn at(&mut self, place: DVec2) -> Option<GroundSample<'a>> {
+        let ground = self.ground;
+        let (tile, cell, part) = ground.find(place)?;
+        let corners = self.corners(tile, cell);
+        let shift = ground.finest() - tile.level();
+        let height = |x: i64, y: i64| {
+            let at = ((x >> shift) - cell.0) + 2 * ((y >> shift) - cell.1);
+            usize::try_from(at).ok().and_then(|at| corners.heights.get(at).copied().flatten())
+        };
+        let laid = ground.interpolate(tile, cell, part, height)?;
+        let [north_west, north_east, south_west, south_east] = corners.normals;
+        let north = north_west.lerp(north_east, part.x);
+        let south = south_west.lerp(south_east, part.x);
+        Some(GroundSample {
+            height: ground.complete(tile, place, laid),
+            normal: north.lerp(south, part.y).normalize(),
+            symbol: ground.world().name(tile.level(), tile.symbol(cell.0, cell.1)),
+        })
+    }
+
+    /// Returns the corners of a cell of `tile`, and keeps them.
+    fn corners(&mut self, tile: &Tile, cell: (i64, i64)) -> CellCorners {
+        let (level, shift) = (tile.level(), self.ground.finest() - tile.level());
+        let last = self.last.filter(|last| last.level == level && last.cell.1 == cell.1);
+        let corner = |right: i64, down: i64| {
+            let (x, y) = ((cell.0 + right) << shift, (cell.1 + down) << shift);
+            (self.ground.surface_height(x, y), self.ground.normal(x, y))
+        };
+        let all = match last {
+            Some(last) if last.cell.0 == cell.0 => return last,
+            Some(last) if last.cell.0 + 1 == cell.0 => {
+                let west = |at: usize| (last.heights[at], last.normals[at]);
+                [west(1), corner(1, 0), west(3), corner(1, 1)]
+            }
+            _ => [corner(0, 0), corner(1, 0), corner(0, 1), corner(1, 1)],
+        };
+        let corners = CellCorners {
+            level,
+            cell,
+            heights: all.map(|(height, _)| height),
+            normals: all.map(|(_, normal)| normal),
+        };
+        self.last = Some(corners);
+        corners
+    }
+}
