@@ -114,24 +114,24 @@ fn tile(
                 }
                 None => None,
             };
-            let surface = match &seen {
-                Some(seen) => seen.surface.clone(),
+            let (surface, ground) = match seen {
+                Some(seen) => {
+                    // Triangles of one smooth surface are shaded as one fragment.
+                    let alike = (first..fragments.len()).find(|i| fragments[*i].joins(&seen.surface));
+                    if let Some(i) = alike {
+                        shares[i].weight += weight;
+                        continue;
+                    }
+                    (seen.finish(light.camera), false)
+                }
                 None => match ground(light, place) {
-                    Some(surface) => surface,
+                    Some(surface) => (surface, true),
                     None => {
                         *color += backdrop(light, picture, place) * weight;
                         continue;
                     }
                 },
             };
-            // Triangles of one smooth surface are shaded as one fragment.
-            let alike = (first..fragments.len()).find(|i| fragments[*i].joins(&surface));
-            if let Some(i) = alike {
-                shares[i].weight += weight;
-                continue;
-            }
-            let ground = seen.is_none();
-            let surface = seen.map_or(surface, |seen| seen.finish(light.camera));
             fragments.push(Fragment::new(surface, noise, fragments.len()));
             shares.push(FragmentShare { pixel, weight, ground });
         }

@@ -38,14 +38,14 @@ impl RasterGrid<'_> {
             return;
         }
         let (first, last) = (ceil(lowest), highest as i64);
-        if first > last {
+        if first > highest {
             return;
         }
         let (ax, bx, cx) = (snap(a.x), snap(b.x), snap(c.x));
         // Most triangles of large models cover no sample.
         let (leftmost, rightmost) = (ax.min(bx).min(cx), ax.max(bx).max(cx));
         if let [shift] = self.shifts
-            && ceil(((leftmost - shift) / FINE).max(0.0)) as f64 > (rightmost - shift) / FINE
+            && ceil(((leftmost - shift) / FINE).max(0.0)) > (rightmost - shift) / FINE
         {
             return;
         }
@@ -64,22 +64,20 @@ impl RasterGrid<'_> {
         let along = (dz1 * (cy - ay) - dz2 * (by - ay)) * part;
         let down = (dz2 * (bx - ax) - dz1 * (cx - ax)) * part;
         let end = self.width as f64 - 1.0;
+        let mut at = first * FINE + half;
         for y in first as usize..=last as usize {
-            let at = y as f64 * FINE + half;
             let shift = self.shifts[y & (self.shifts.len() - 1)];
             let (mut left, mut right) = (0.0_f64, end);
             for edge in &edges {
                 edge.bound(at, shift, &mut left, &mut right);
             }
-            if left > right {
-                continue;
-            }
-            let (left, right) = (ceil(left), right as i64);
+            let left = ceil(left);
             if left <= right {
-                let x = left as f64 * FINE + shift;
+                let x = left * FINE + shift;
                 let z = f64::from(a.z) + along * (x - ax) + down * (at - ay);
                 row(y, left as usize..right as usize + 1, z as f32, (along * FINE) as f32);
             }
+            at += FINE;
         }
     }
 }
@@ -89,13 +87,21 @@ struct RasterEdge {
     slope: f64,
     rise: f64,
     offset: f64,
-    /// -1 / (slope * FINE).
+    /// -1 / (slope * FINE); for a horizontal edge [`ACROSS`].
     cut: f64,
+    /// Offsets of the bounds of a row to the left and to the right, of which one is [`UNBOUNDED`].
+    margins: [f64; 2],
 }
 
 /// Tolerance that makes `ceil` and `floor` exact. The quotients of the integers in question either are integers or
 /// differ from integers by more than this value, and are computed with a smaller error.
 const SLACK: f64 = 1e-10;
+/// Margin of a bound that does not count.
+const UNBOUNDED: f64 = 1e300;
+/// Factor that makes a negative integer a bound to the left of all samples, even with the margin [`BEYOND`].
+const ACROSS: f64 = 1e30;
+/// Margin that makes zero a bound to the right of all samples.
+const BEYOND: f64 = 1e20;
 
 impl RasterEdge {
     /// Creates the edge from the first to the second point of a triangle whose area has the sign `turn`.
@@ -104,20 +110,24 @@ impl RasterEdge {
         let (dx, dy) = ((x1 - x0) * turn, (y1 - y0) * turn);
         // A sample on an edge belongs to only one of its two triangles, which traverse the edge in opposite directions.
         let own = if dy > 0.0 || (dy == 0.0 && dx > 0.0) { 0.0 } else { 1.0 };
-        Self { slope: -dy, rise: dx, offset: dy * x0 - dx * y0 - own, cut: 1.0 / (dy * FINE) }
+        let (cut, margins) = if dy == 0.0 {
+            (ACROSS, [-UNBOUNDED, BEYOND])
+        } else if dy < 0.0 {
+            (1.0 / (dy * FINE), [-SLACK, UNBOUNDED])
+        } else {
+            (1.0 / (dy * FINE), [-UNBOUNDED, SLACK])
+        };
+        Self { slope: -dy, rise: dx, offset: dy * x0 - dx * y0 - own, cut, margins }
     }
 
     /// Narrows the interval `left` to `right`, not rounded, of samples in the row at `y` to the samples inside.
     #[inline]
     fn bound(&self, y: f64, shift: f64, left: &mut f64, right: &mut f64) {
-        let value = self.rise * y + self.offset + self.slope * shift;
-        if self.slope > 0.0 {
-            *left = left.max(value * self.cut - SLACK);
-        } else if self.slope < 0.0 {
-            *right = right.min(value * self.cut + SLACK);
-        } else if value < 0.0 {
-            *right = -1.0;
-        }
+        let place = (self.rise * y + self.offset + self.slope * shift) * self.cut;
+        let (least, most) = (place + self.margins[0], place + self.margins[1]);
+        // Rows are short, so comparisons that are single instructions are faster than branches.
+        *left = if least > *left { least } else { *left };
+        *right = if most < *right { most } else { *right };
     }
 }
 
@@ -128,11 +138,11 @@ fn round(x: f64) -> f64 {
     (x + WHOLE) - WHOLE
 }
 
-/// Rounds `x` up to an integer; `x` must not be negative.
+/// Rounds `x` up to an integer; `x` must not be negative, and be less than 2^51 or greater than all samples.
 #[inline]
-fn ceil(x: f64) -> i64 {
-    let down = x as i64;
-    down + i64::from((down as f64) < x)
+fn ceil(x: f64) -> f64 {
+    let near = round(x);
+    if near < x { near + 1.0 } else { near }
 }
 
 #[cfg(test)]

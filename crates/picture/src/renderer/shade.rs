@@ -129,10 +129,11 @@ impl Light<'_> {
     pub(super) fn gather(&self, fragments: &[Fragment], pools: usize) -> Vec<GatheredLight> {
         let mut gathered = vec![GatheredLight::default(); pools];
         let count = self.sky.maps.len();
-        let probes = fragments.iter().map(|fragment| Probe::new(fragment, self.sky.lift));
-        let mut probes: Vec<Probe> = probes.collect();
         // Probes of the same maps are close together, so that each map stays in the cache.
-        probes.sort_by_key(|probe| probe.share);
+        let mut order: Vec<&Fragment> = fragments.iter().collect();
+        order.sort_by_key(|fragment| fragment.share);
+        let probes: Vec<Probe> =
+            order.into_iter().map(|fragment| Probe::new(fragment, self.sky.lift)).collect();
         for probes in probes.chunk_by(|a, b| a.share == b.share) {
             let (turn, of) = probes[0].share;
             // The maps whose number times `of`, divided by `count`, is `turn`.

@@ -64,6 +64,8 @@ pub(super) struct SkySample {
     /// Horizontal distance of lookups (texels) per unit of depth.
     spread: f32,
     frame: LightProjection,
+    /// Width and height (texels).
+    size: Vec2,
     depths: Vec<u16>,
 }
 
@@ -181,9 +183,10 @@ impl SkySample {
         let stretch = Vec3::new(1.0, 1.0, scale);
         frame.to_texels = glam::Affine3A::from_scale(stretch) * frame.to_texels;
         let depths = vec![u16::MAX; frame.texels()];
+        let size = Vec2::new(frame.width as f32, frame.height as f32);
         let bias = 0.5 * frame.texel * scale + 1.0;
         let spread = SPREAD / (scale * frame.texel);
-        Self { direction, light, jitter, bias, spread, frame, depths }
+        Self { direction, light, jitter, bias, spread, frame, size, depths }
     }
 
     /// Draws all triangles.
@@ -242,14 +245,13 @@ impl SkySample {
     /// Returns the depth of the lit surface at `texel`; infinite if there is none.
     #[inline]
     fn depth(&self, texel: Vec2) -> f32 {
-        let (x, y) = (texel.x, texel.y);
-        if x < 0.0 || y < 0.0 || x >= self.frame.width as f32 || y >= self.frame.height as f32 {
+        if !(texel.cmpge(Vec2::ZERO) & texel.cmplt(self.size)).all() {
             return f32::INFINITY;
         }
-        match self.depths[y as usize * self.frame.width + x as usize] {
-            u16::MAX => f32::INFINITY,
-            depth => f32::from(depth),
-        }
+        // Whether a texel is empty cannot be predicted, so a sum is faster than a branch.
+        let (x, y) = (texel.x as i32 as usize, texel.y as i32 as usize);
+        let depth = self.depths[y * self.frame.width + x];
+        f32::from(depth) + [0.0, f32::INFINITY][usize::from(depth == u16::MAX)]
     }
 }
 

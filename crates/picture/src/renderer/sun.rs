@@ -36,12 +36,41 @@ pub(super) struct Sun {
     /// Brightness of the sky, relative to that under the sun of a studio.
     pub dusk: f32,
     frame: LightProjection,
+    texels: TexelBlocks,
     depths: Vec<f32>,
     /// Offsets of the lookups for a full pixel, within the unit disc. Any consecutive part of them is distributed over
     /// the disc.
     disc: Vec<Vec2>,
     /// Set if points that share a pixel with two others need no search for the radius of the penumbra.
     pools_light: bool,
+}
+
+/// Order of the texels in memory: in squares, so that lookups around a point read few lines of the cache.
+#[derive(Debug, Clone, Copy)]
+struct TexelBlocks {
+    /// Number of squares in a row, and of rows of squares.
+    count: [usize; 2],
+}
+
+impl TexelBlocks {
+    /// Side of a square (texels): 16 depths fill a line of the cache.
+    const SIDE: usize = 4;
+
+    fn new(frame: &LightProjection) -> Self {
+        Self { count: [frame.width, frame.height].map(|side| side.div_ceil(Self::SIDE)) }
+    }
+
+    /// Returns the number of texels of all squares.
+    fn texels(&self) -> usize {
+        self.count[0] * self.count[1] * Self::SIDE * Self::SIDE
+    }
+
+    /// Returns the index of texel `x`, `y`.
+    #[inline]
+    fn place(&self, x: usize, y: usize) -> usize {
+        let block = y / Self::SIDE * self.count[0] + x / Self::SIDE;
+        (block * Self::SIDE + y % Self::SIDE) * Self::SIDE + x % Self::SIDE
+    }
 }
 
 impl Sun {
@@ -62,9 +91,9 @@ impl Sun {
         let direction = place.direction().as_vec3a();
         let frame = LightProjection::fit(&stage.hull, direction, detail.sun_side);
         let mut texels = Vec::new();
-        texels.resize_with(frame.texels(), || AtomicU32::new(f32::INFINITY.to_bits()));
-        let width = frame.width;
-        let grid = RasterGrid { width, rows: 0..frame.height, shifts: &[128.0] };
+        let blocks = TexelBlocks::new(&frame);
+        texels.resize_with(blocks.texels(), || AtomicU32::new(f32::INFINITY.to_bits()));
+        let grid = RasterGrid { width: frame.width, rows: 0..frame.height, shifts: &[128.0] };
         stage.batches().into_par_iter().for_each(|numbers| {
             stage.each_caster(numbers, &frame.to_texels, |draw, triangle| {
                 let coverage = Coverage::of(draw, &triangle, [4, 4], false);
@@ -72,7 +101,7 @@ impl Sun {
                     for (i, x) in xs.enumerate() {
                         // The bit patterns of non-negative floats have the same order as the floats.
                         let depth = (z + growth * i as f32).max(0.0).to_bits();
-                        let texel = &texels[y * width + x];
+                        let texel = &texels[blocks.place(x, y)];
                         if depth < texel.load(Ordering::Relaxed) && coverage.covers(x, y, 128.0) {
                             texel.fetch_min(depth, Ordering::Relaxed);
                         }
@@ -84,13 +113,22 @@ impl Sun {
         let pools_light = detail.pools_light;
         let height = place.elevation as f32;
         let (light, dusk) = (sunlight(height), (height.sin() / SUN_HEIGHT.sin()).clamp(0.0, 1.0).powf(0.35));
-        Self { direction, light, dusk, frame, depths, disc: disc(detail.sun_taps), pools_light }
+        Self {
+            direction,
+            light,
+            dusk,
+            frame,
+            texels: blocks,
+            depths,
+            disc: disc(detail.sun_taps),
+            pools_light,
+        }
     }
 
     /// Returns the depth of the lit surface at texel `x`, `y`; infinite if there is none.
     fn depth(&self, x: f32, y: f32) -> f32 {
         let inside = x >= 0.0 && y >= 0.0 && x < self.frame.width as f32 && y < self.frame.height as f32;
-        if inside { self.depths[y as usize * self.frame.width + x as usize] } else { f32::INFINITY }
+        if inside { self.depths[self.texels.place(x as usize, y as usize)] } else { f32::INFINITY }
     }
 
     /// Returns true if the sun reaches `point`, which is not on a surface, according to a single lookup.
@@ -194,6 +232,18 @@ mod tests {
             let point = Vec3A::new((i % 10) as f32 * 0.1 - 0.45, (i / 10) as f32 * 0.1 - 0.45, top);
             assert!(sun.visibility(point, Vec3A::Z, i as f32, (0, 1)) > 0.99, "acne at {point}");
         }
+    }
+
+    #[test]
+    fn each_texel_of_the_map_has_its_own_place() {
+        let hull = [Vec3A::ZERO, Vec3A::new(1.0, 0.3, 0.1)];
+        let frame = LightProjection { width: 9, height: 6, ..LightProjection::fit(&hull, Vec3A::Z, 8.0) };
+        let blocks = TexelBlocks::new(&frame);
+        let mut places: Vec<usize> =
+            (0..54).map(|i| blocks.place(i % frame.width, i / frame.width)).collect();
+        places.sort_unstable();
+        places.dedup();
+        assert!(places.len() == 54 && places.iter().all(|place| *place < blocks.texels()), "{places:?}");
     }
 
     #[test]

@@ -66,6 +66,8 @@ pub(super) struct SeenPoint<'a> {
     images: &'a MaterialImages,
     draw: &'a DrawCall<'a>,
     corners: [usize; 3],
+    /// Normals of the corners in the mesh's coordinates.
+    normals: [Vec3; 3],
     triangle: StageTriangle,
     /// Weights of the second and third corner, and the same within the triangle.
     exact: Vec2,
@@ -101,7 +103,8 @@ impl<'a> SeenPoint<'a> {
         let side = if plane.dot(view) < 0.0 { -1.0 } else { 1.0 };
         let weights = [1.0 - inside.x - inside.y, inside.x, inside.y];
         let local = |i: usize| part.normals.get(i).map_or(Vec3::ZERO, |normal| normal.vector());
-        let blended: Vec3 = triangle.iter().zip(weights).map(|(i, weight)| local(*i) * weight).sum();
+        let normals = triangle.map(local);
+        let blended: Vec3 = normals.into_iter().zip(weights).map(|(normal, weight)| normal * weight).sum();
         let normal = (draw.turn * Vec3A::from(blended)).normalize_or(plane) * side;
 
         let material = &stage.materials[part.material];
@@ -122,7 +125,7 @@ impl<'a> SeenPoint<'a> {
             thin: material.double_sided && material.metallic < 0.5,
         };
         let images = &images[part.material];
-        Self { surface, images, draw, corners: triangle, triangle: corners, exact, inside, place }
+        Self { surface, images, draw, corners: triangle, normals, triangle: corners, exact, inside, place }
     }
 
     /// Returns the point with the colour of its texture and the slope of its normal map, on the smooth surface.
@@ -131,10 +134,9 @@ impl<'a> SeenPoint<'a> {
         let (part, StageTriangle { a, ab, ac, .. }) = (self.draw.part, self.triangle);
         let side = if surface.plane.dot(self.triangle.cross) < 0.0 { -1.0 } else { 1.0 };
         let side = if self.draw.mirrored { -side } else { side };
-        let normals = self.corners.map(|i| {
-            let local = part.normals.get(i).map_or(Vec3::ZERO, |normal| normal.vector());
-            (self.draw.turn * Vec3A::from(local)).normalize_or(surface.plane * side) * side
-        });
+        let normals = self
+            .normals
+            .map(|local| (self.draw.turn * Vec3A::from(local)).normalize_or(surface.plane * side) * side);
         let weights = [1.0 - self.inside.x - self.inside.y, self.inside.x, self.inside.y];
         let corners = [a, a + ab, a + ac];
         surface.rounded = round_position(surface.position, corners, normals, weights);

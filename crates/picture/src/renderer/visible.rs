@@ -13,18 +13,43 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// Value of a sample that sees no triangle.
 const NOTHING: u64 = u64::MAX;
 
+/// Number of covered samples of small triangles that are compared together, so that the waits for memory overlap.
+const PENDING: usize = 1024;
+
 /// Samples of some rows of pixels.
 pub(super) struct Visible {
     /// First row of pixels.
     pub first: usize,
     /// Depth in the upper half, the triangle's number in the lower half. The minimum is the front triangle; of two
     /// triangles at the same depth, the one with the lower number, independent of the order of threads.
+    ///
+    /// Pixel by pixel, because the triangles of large models are small: those of a pixel then share a line of the cache.
     samples: Vec<AtomicU64>,
-    /// Number of samples in a row.
-    stride: usize,
+    layout: SampleLayout,
+    shifts: Vec<f64>,
+}
+
+/// Order of the samples in memory. The numbers of columns and rows of samples in a pixel are powers of two.
+#[derive(Debug, Clone, Copy)]
+struct SampleLayout {
+    /// Number of pixels in a row.
+    width: usize,
     columns: usize,
     rows: usize,
-    shifts: Vec<f64>,
+}
+
+impl SampleLayout {
+    /// Returns the index of the first sample of the pixel at `x`, `y`.
+    #[inline]
+    fn pixel(&self, x: usize, y: usize) -> usize {
+        (y * self.width + x) * self.columns * self.rows
+    }
+
+    /// Returns the index of sample 0 in row `y` of samples.
+    #[inline]
+    fn row(&self, y: usize) -> usize {
+        self.pixel(0, y / self.rows) + y % self.rows * self.columns
+    }
 }
 
 impl Visible {
@@ -37,15 +62,26 @@ impl Visible {
         pixels: Range<usize>,
     ) -> Self {
         let (columns, rows) = (detail.columns, detail.rows);
-        let stride = width * columns;
+        let layout = SampleLayout { width, columns, rows };
         let height = pixels.len() * rows;
         let mut samples = Vec::new();
-        samples.resize_with(stride * height, || AtomicU64::new(NOTHING));
+        samples.resize_with(width * columns * height, || AtomicU64::new(NOTHING));
         let shifts = shifts(rows);
-        let grid = RasterGrid { width: stride, rows: 0..height, shifts: &shifts };
+        let grid = RasterGrid { width: width * columns, rows: 0..height, shifts: &shifts };
+        // The index of a sample within its row: as many bits as a pixel has columns stay, and the others move up.
+        let (column_bits, row_bits) = (columns.trailing_zeros(), rows.trailing_zeros());
+        let in_row = move |x: usize| ((x >> column_bits) << (column_bits + row_bits)) + (x & (columns - 1));
         let scale = Vec3A::new(columns as f32, rows as f32, 1.0);
         let offset = Vec3A::new(0.0, (pixels.start * rows) as f32, 0.0);
-        stage.batches().into_par_iter().for_each(|numbers| {
+        let flush = |pending: &mut Vec<(usize, u64)>| {
+            for (place, key) in pending.drain(..) {
+                let sample = &samples[place];
+                if key < sample.load(Ordering::Relaxed) {
+                    sample.fetch_min(key, Ordering::Relaxed);
+                }
+            }
+        };
+        stage.batches().into_par_iter().for_each_init(Vec::new, |pending, numbers| {
             let project = |point| camera.project(point) * scale - offset;
             let near = Some([camera.near_plane(), camera.slope()]);
             stage.each_triangle(numbers, &camera.view, project, near, |draw, triangle| {
@@ -56,34 +92,47 @@ impl Visible {
                     return;
                 }
                 let coverage = Coverage::of(draw, &triangle, [columns, rows], !camera.is_parallel());
+                let is_full = coverage.is_full();
                 grid.cover(triangle.corners, |y, xs, z, growth| {
                     let shift = shifts[y & (rows - 1)];
+                    let row = layout.row(y);
                     for (i, x) in xs.enumerate() {
                         let depth = (z + growth * i as f32).max(0.0);
                         let key = u64::from(depth.to_bits()) << 32 | u64::from(triangle.number);
-                        let sample = &samples[y * stride + x];
+                        let place = row + in_row(x);
+                        if is_full {
+                            pending.push((place, key));
+                            continue;
+                        }
+                        let sample = &samples[place];
                         if key < sample.load(Ordering::Relaxed) && coverage.covers(x, y, shift) {
                             sample.fetch_min(key, Ordering::Relaxed);
                         }
                     }
                 });
+                if pending.len() > PENDING {
+                    flush(pending);
+                }
             });
+            flush(pending);
         });
-        Self { first: pixels.start, samples, stride, columns, rows, shifts }
+        Self { first: pixels.start, samples, layout, shifts }
     }
 
     /// Calls `see` for each sample of a pixel, with the triangle's number, if any, and the sample's position (pixels);
     /// `y` counts from the top of the whole image.
     pub(super) fn each_sample(&self, x: usize, y: usize, mut see: impl FnMut(Option<u32>, [f32; 2])) {
-        for row in 0..self.rows {
-            let start = ((y - self.first) * self.rows + row) * self.stride + x * self.columns;
+        let SampleLayout { columns, rows, .. } = self.layout;
+        let start = self.layout.pixel(x, y - self.first);
+        let samples = &self.samples[start..start + columns * rows];
+        for (row, samples) in samples.chunks_exact(columns).enumerate() {
             let shift = self.shifts[row] as f32 / 256.0;
-            for column in 0..self.columns {
-                let key = self.samples[start + column].load(Ordering::Relaxed);
+            for (column, sample) in samples.iter().enumerate() {
+                let key = sample.load(Ordering::Relaxed);
                 let number = (key != NOTHING).then_some(key as u32);
                 let place = [
-                    x as f32 + (column as f32 + shift) / self.columns as f32,
-                    y as f32 + (row as f32 + 0.5) / self.rows as f32,
+                    x as f32 + (column as f32 + shift) / columns as f32,
+                    y as f32 + (row as f32 + 0.5) / rows as f32,
                 ];
                 see(number, place);
             }
@@ -102,6 +151,22 @@ fn shifts(rows: usize) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn each_sample_has_its_own_place_and_those_of_a_pixel_are_together() {
+        let layout = SampleLayout { width: 5, columns: 2, rows: 4 };
+        let mut places = Vec::new();
+        for y in 0..3 * 4 {
+            for x in 0..5 * 2 {
+                let place = layout.row(y) + (x >> 1) * 8 + (x & 1);
+                let first = layout.pixel(x / 2, y / 4);
+                assert!((first..first + 8).contains(&place), "{place} of the pixel from {first} on");
+                places.push(place);
+            }
+        }
+        places.sort_unstable();
+        assert_eq!(places, (0..5 * 3 * 8).collect::<Vec<_>>());
+    }
 
     #[test]
     fn the_rows_of_a_pixel_are_shifted_differently() {
