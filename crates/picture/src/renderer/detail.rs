@@ -61,7 +61,7 @@ impl RenderDetail {
                 sun_taps: 16,
                 pools_light: true,
                 turns: 1,
-                surfaces: usize::MAX,
+                surfaces: 4,
                 traces: false,
             },
             Quality::Fine => Self {

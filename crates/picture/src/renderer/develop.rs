@@ -96,17 +96,12 @@ fn tile(
             // The ground comes last, so that all others can share their light.
             seen.sort_by_key(|(number, ..)| number.is_none());
         }
-        if seen.len() > detail.surfaces {
-            // The order of the samples is the same for any number of threads, and the sort is stable.
-            seen.sort_by(|(_, a, _), (_, b, _)| b.total_cmp(a));
-            seen.truncate(detail.surfaces);
-        }
-        let part = 1.0 / seen.iter().map(|(_, count, _)| count).sum::<f32>();
+        let kept = limit_surfaces(&mut seen, detail.surfaces);
         let noise = noise(x as u32, y as u32, 1);
         let first = fragments.len();
         for (number, count, sum) in &seen {
             let place = sum.map(|sum| sum / count);
-            let weight = count * part;
+            let weight = count * if number.is_some() { kept } else { 1.0 } / detail.samples() as f32;
             let seen = match number {
                 Some(number) => {
                     let (stage, images) = (light.stage, light.images);
@@ -173,6 +168,27 @@ fn tile(
         colors[share.pixel] += color * share.weight;
     }
     colors.into_iter().map(encode).collect()
+}
+
+/// Keeps at most `most` surfaces of a pixel: the background, if it is seen, and those of the model with the most samples. The
+/// samples of the others count as those of the kept ones, so that the model covers as much of the background. Returns the
+/// factor of the samples of the model.
+fn limit_surfaces(seen: &mut Vec<(Option<u32>, f32, [f32; 2])>, most: usize) -> f32 {
+    let samples = |seen: &[(Option<u32>, f32, [f32; 2])]| {
+        seen.iter().filter(|(number, ..)| number.is_some()).map(|(_, count, _)| count).sum::<f32>()
+    };
+    let ground = seen.iter().position(|(number, ..)| number.is_none());
+    if seen.len() <= most {
+        return 1.0;
+    }
+    let ground = ground.map(|index| seen.remove(index));
+    let all = samples(seen);
+    // The order of the samples is the same for any number of threads, and the sort is stable.
+    seen.sort_by(|(_, a, _), (_, b, _)| b.total_cmp(a));
+    seen.truncate((most - usize::from(ground.is_some())).max(1));
+    let kept = samples(seen);
+    seen.extend(ground);
+    all / kept
 }
 
 /// Lets the surfaces of a crowded pixel share one light, the first of which has the index `pool`: each gathers it from a
@@ -280,4 +296,31 @@ fn encode(color: Vec4) -> [u8; 4] {
     let straight = color.truncate() / opacity.max(1e-6);
     let [red, green, blue] = straight.to_array().map(srgb_byte);
     [red, green, blue, (opacity * 255.0 + 0.5) as u8]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn surfaces_that_are_left_out_count_as_the_others_and_the_background_keeps_its_samples() {
+        let at = [0.0; 2];
+        let all = vec![
+            (Some(7), 1.0, at),
+            (None, 2.0, at),
+            (Some(3), 3.0, at),
+            (Some(5), 1.0, at),
+            (Some(9), 1.0, at),
+        ];
+        for (most, expected) in [(3, vec![Some(3), Some(7), None]), (2, vec![Some(3), None])] {
+            let mut seen = all.clone();
+            let factor = limit_surfaces(&mut seen, most);
+            assert_eq!(seen.iter().map(|(number, ..)| *number).collect::<Vec<_>>(), expected);
+            let model: f32 =
+                seen.iter().filter(|seen| seen.0.is_some()).map(|(_, count, _)| count * factor).sum();
+            assert!((model - 6.0).abs() < 1e-6 && (seen[seen.len() - 1].1 - 2.0).abs() < 1e-6);
+        }
+        let mut seen = all.clone();
+        assert!((limit_surfaces(&mut seen, 5) - 1.0).abs() < 1e-6 && seen == all);
+    }
 }
