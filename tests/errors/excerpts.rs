@@ -220,6 +220,27 @@ fn a_missing_texture_has_its_line_and_the_nearest_file() {
 }
 
 #[test]
+fn a_dirt_map_without_its_file_its_set_or_a_shape_is_reported_with_its_line() {
+    let tried = |fields: &str, draw: &str| {
+        let script = format!(
+            "local A = module(\"A\")\nlocal s = lsystem({{ object = extruder() }}) s:axiom(A())\ns:interpret(\"A\", function(this)\n  local wall = rectangle(4, 3)\n  local grime = {{ {fields} }}\n  {draw}\nend)\ns:derive(0)\n"
+        );
+        let folder = Folder::new().with("s.lua", &script).with("stain.png", "x");
+        folder.burgeon(&["check", "s.lua"]).stderr
+    };
+    let own = "dirt = \"stain.png\", dirt_set = \"grime\"";
+    assert_snapshot!(tried(own, "this:shape(wall:material(grime))"), @"");
+    assert_snapshot!(tried(own, "this:material(grime):shape(wall:project(2, 2, { set = \"soot\" }))"), @"");
+    assert_snapshot!(tried(own, "this:material(grime):extrude(2)"), @"");
+    let set = tried(own, "this:shape(wall:material(grime):project(2, 2, { set = \"grime\" }))");
+    assert!(!set.contains("warning"), "{set}");
+    assert_snapshot!(tried("dirt = \"stein.png\"", "this:material(grime):extrude(2)"), @"");
+    assert_snapshot!(tried("dirt_set = \"grime\"", "this:material(grime):extrude(2)"), @"");
+    assert_snapshot!(tried("dirt = \"stain.png\", dirt_size = { 2 }", "this:material(grime):extrude(2)"), @"");
+    assert_snapshot!(tried(own, "this:shape(wall:project(2, 2, { set = \"\" }))"), @"");
+}
+
+#[test]
 fn a_missing_normal_map_has_its_line_and_an_impossible_one_its_reason() {
     let tried = |fields: &str| {
         let script = format!(

@@ -8,13 +8,20 @@
 //!       "floors": 60,
 //!       "twist": 2
 //!     }
+//!   },
+//!   "dark": {
+//!     "extends": "tall",
+//!     "params": { "lit": false }
 //!   }
 //! }
 //! ```
 //!
+//! A preset that extends another one has its seed and its values, except those of its own.
+//!
 //! Input: the path of a script, or a [`Preset`] to save. Output: its [`Presets`], and their file. A file in another
 //! format is rejected and never overwritten.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use serde_json::value::RawValue;
@@ -22,7 +29,7 @@ use serde_json::{Map, Number, Value};
 
 use super::json_file::write_json;
 use crate::watch::settled;
-use burgeon_base::error::{Error, Limit, Result};
+use burgeon_base::error::{Error, Limit, Result, SourcePlace};
 use burgeon_base::names::{has_bidi_controls, normal_form};
 use burgeon_engine::script::{JsonText, Preset, Setting, json_excerpt};
 
@@ -31,6 +38,9 @@ const LARGEST: u64 = 16_000_000;
 
 /// Maximum number of characters of a preset's name.
 const LONGEST: usize = 80;
+
+/// Maximum number of presets that extend one another.
+const DEEPEST: usize = 16;
 
 /// Presets of a script, in the order of their file.
 #[derive(Debug, Clone, PartialEq)]
@@ -119,27 +129,33 @@ impl Presets {
     /// Removes the preset called `name` of `script` and returns the others. The file is deleted together with its last
     /// preset.
     ///
-    /// Fails as [`save`](Self::save) does, and if there is no such preset.
+    /// Fails as [`save`](Self::save) does, if there is no such preset, and if another one extends it.
     pub fn remove(script: &Path, name: &str) -> Result<Self> {
         let mut presets = Self::read(script)?;
         presets.get(name)?;
+        let extends = |preset: &&Preset| preset.extends.as_ref().is_some_and(|base| is_same(base, name));
+        if let Some(other) = presets.presets.iter().find(extends) {
+            return Err(Error::argument(format!("preset {} extends {name}, which stays", other.name))
+                .help(format!("remove {} first, or write its values into it", other.name)));
+        }
         presets.presets.retain(|known| !is_same(&known.name, name));
         presets.write()?;
         Ok(presets)
     }
 
-    /// Returns the preset called `name`. Fails if it does not exist; the error lists the names.
-    pub fn get(&self, name: &str) -> Result<&Preset> {
-        let found = self.presets.iter().find(|preset| is_same(&preset.name, name));
-        found.ok_or_else(|| self.unknown_preset(name))
-    }
-
-    /// Returns the preset called `name` without the others. Fails as [`get`](Self::get) does.
-    pub fn into_preset(mut self, name: &str) -> Result<Preset> {
-        match self.presets.iter().position(|preset| is_same(&preset.name, name)) {
-            Some(index) => Ok(self.presets.swap_remove(index)),
-            None => Err(self.unknown_preset(name)),
+    /// Returns the preset called `name`, with the values of those that it extends. Fails if it does not exist; the error lists
+    /// the names.
+    pub fn get(&self, name: &str) -> Result<Preset> {
+        let find = |name: &str| self.presets.iter().find(|preset| is_same(&preset.name, name));
+        let mut own = find(name).cloned().ok_or_else(|| self.unknown_preset(name))?;
+        let mut next = own.extends.take();
+        // The file was checked when it was read.
+        for _ in 0..DEEPEST {
+            let Some(base) = next.and_then(|name| find(&name)) else { break };
+            own = own.over(base);
+            next = base.extends.clone();
         }
+        Ok(own)
     }
 
     fn unknown_preset(&self, name: &str) -> Error {
@@ -168,6 +184,9 @@ impl Presets {
         }
         let presets = self.presets.iter().map(|preset| {
             let mut object = Map::new();
+            if let Some(base) = &preset.extends {
+                object.insert("extends".into(), base.as_str().into());
+            }
             if let Some(seed) = preset.seed {
                 object.insert("seed".into(), seed.into());
             }
@@ -215,7 +234,7 @@ pub fn check_name(name: &str) -> Result<()> {
 
 /// Parses the presets of a file.
 fn parse(text: &JsonText<'_>) -> Result<Vec<Preset>> {
-    let mut presets = Vec::new();
+    let (mut presets, mut bases) = (Vec::new(), Vec::new());
     for (name, raw) in
         text.members(text.value()?, "the file", "{ \"name\": { \"seed\": 0, \"params\": {} } }")?
     {
@@ -231,6 +250,15 @@ fn parse(text: &JsonText<'_>) -> Result<Vec<Preset>> {
                     })?;
                     preset.seed = Some(seed);
                 }
+                "extends" => {
+                    let base: String = serde_json::from_str(raw.get()).map_err(|_| {
+                        Error::data(format!("{what}: invalid name {} in extends", json_excerpt(raw)))
+                            .help("write the name of another preset of the file")
+                            .at(Some(text.place(raw)))
+                    })?;
+                    bases.push((presets.len(), text.place(raw)));
+                    preset.extends = Some(base);
+                }
                 "params" => {
                     for (name, raw) in text.members(raw, &format!("{what}: params"), "{ \"height\": 3 }")? {
                         let setting = read_setting(text, raw, &what, &name)?;
@@ -240,15 +268,48 @@ fn parse(text: &JsonText<'_>) -> Result<Vec<Preset>> {
                 }
                 _ => {
                     let message = format!("unknown field `{key}` in {what}");
-                    return Err(Error::not_found("field", &key, ["seed", "params"], message)
-                        .help("a preset has a seed and params; put parameters into params")
+                    return Err(Error::not_found("field", &key, ["extends", "seed", "params"], message)
+                        .help("a preset has a seed, params, and another one that it extends; put parameters into params")
                         .at(Some(text.place(raw))));
                 }
             }
         }
         presets.push(preset);
     }
+    check_bases(&presets, bases)?;
     Ok(presets)
+}
+
+/// Fails if a preset extends one that does not exist, itself, or too many. `bases` are the numbers of those that extend another one,
+/// with the place of its name.
+fn check_bases(presets: &[Preset], bases: Vec<(usize, SourcePlace)>) -> Result<()> {
+    let names = presets.iter().enumerate().map(|(index, preset)| (normal_form(&preset.name), index));
+    let known: BTreeMap<_, usize> = names.collect();
+    for (index, place) in bases {
+        let (name, mut at) = (&presets[index].name, index);
+        for step in 0.. {
+            let Some(base) = &presets[at].extends else { break };
+            let Some(next) = known.get(&normal_form(base)) else {
+                let message = format!("preset {} extends the unknown preset `{base}`", presets[at].name);
+                let names = presets.iter().map(|preset| preset.name.as_str());
+                return Err(Error::not_found("preset", base, names, message)
+                    .help("write the name of another preset of the file")
+                    .at(Some(place)));
+            };
+            if *next == index || step >= DEEPEST {
+                let cause = if *next == index {
+                    "extends itself".into()
+                } else {
+                    format!("extends more than {DEEPEST} others")
+                };
+                return Err(Error::data(format!("preset {name} {cause}, by way of {base}"))
+                    .help("remove extends from one of them")
+                    .at(Some(place)));
+            }
+            at = *next;
+        }
+    }
+    Ok(())
 }
 
 /// Returns the value in `raw` of the parameter `name`; lists are the points of a drawn function, curve or surface.
@@ -369,7 +430,7 @@ mod tests {
         ");
         insta::assert_snapshot!(refused("{ \"tall\": {\n\"floors\": 3 } }"), @r"
         FOLDER/tower.presets.json:2: unknown field `floors` in preset tall
-          help: a preset has a seed and params; put parameters into params
+          help: a preset has a seed, params, and another one that it extends; put parameters into params
         ");
         insta::assert_snapshot!(refused("{ \"tall\": { \"seed\": -1 } }"), @r"
         FOLDER/tower.presets.json:1: preset tall: invalid seed -1
@@ -395,6 +456,44 @@ mod tests {
         FOLDER/tower.presets.json:2: the file has two members named `tall`
           help: remove or rename one of them
         ");
+    }
+
+    #[test]
+    fn a_preset_that_extends_others_has_their_values_and_the_nearest_ones_win() {
+        let folder = tempfile::tempdir().unwrap();
+        let script = folder.path().join("t.lua");
+        let file = r#"{ "dark": { "extends": "tall", "params": { "lit": false } },
+            "tall": { "extends": "base", "seed": 7, "params": { "floors": 60 } },
+            "base": { "seed": 1, "params": { "floors": 3, "lit": true, "twist": 2 } } }"#;
+        std::fs::write(Presets::path_of(&script), file).unwrap();
+        let dark = Presets::read(&script).unwrap().get("dark").unwrap();
+        let number = |name: &str, value: f64| (name.to_owned(), Setting::Number(value));
+        let lit = ("lit".to_owned(), Setting::Boolean(false));
+        assert_eq!(
+            (dark.params, dark.seed),
+            (vec![lit, number("floors", 60.0), number("twist", 2.0)], Some(7))
+        );
+        let lines: Vec<usize> = dark.places.iter().map(|place| place.line).collect();
+        assert_eq!(lines, [1, 2, 3]);
+        // The file keeps what extends what.
+        Presets::save(&script, preset("new", 1.0)).unwrap();
+        let written = std::fs::read_to_string(Presets::path_of(&script)).unwrap();
+        assert_eq!(written.matches("\"extends\"").count(), 2);
+        let kept = Presets::remove(&script, "tall").unwrap_err().to_string();
+        assert!(kept.contains("preset dark extends tall, which stays"), "{kept}");
+        Presets::remove(&script, "dark").unwrap();
+        Presets::remove(&script, "tall").unwrap();
+    }
+
+    #[test]
+    fn a_preset_that_extends_itself_or_nothing_is_refused() {
+        insta::assert_snapshot!(refused("{ \"a\": {\n\"extends\": \"b\" }, \"c\": {} }"), @"");
+        insta::assert_snapshot!(refused("{ \"a\": { \"extends\": \"b\" },\n\"b\": { \"extends\": \"a\" } }"), @"");
+        insta::assert_snapshot!(refused("{ \"a\": { \"extends\": 3 } }"), @"");
+        let chain: Vec<String> =
+            (0..40).map(|number| format!("\"p{number}\": {{ \"extends\": \"p{}\" }}", number + 1)).collect();
+        let long = refused(&format!("{{ {}, \"p40\": {{}} }}", chain.join(",\n")));
+        assert!(long.contains("preset p0 extends more than 16 others"), "{long}");
     }
 
     #[test]
