@@ -83,4 +83,4 @@ house:rule("Glass(face)", function(this, face: Shape)
 end)
 
 house:derive()
-camera({ name = "warehouse", from = { -7, -17, 3.2 }, to = { 6.4, 0, 4.7 }, fov = 40 })
+camera({ name = "warehouse", from = { -6.5, -15.5, 2.6 }, to = { 3.6, 0, 4.7 }, fov = 40 })

@@ -159,6 +159,24 @@ fn shapes_that_differ_from_the_request_are_warnings() {
 }
 
 #[test]
+fn a_sweep_with_turns_tighter_than_the_profile_names_its_tightest_turn_once() {
+    insta::assert_snapshot!(warnings(&[
+        "square:sweep({ vec(0, 0, 0), vec(3, 0, 0), vec(3, 1, 0), vec(0, 1, 0) }, { joint = \"smooth\" }):volume()",
+        "square:sweep({ vec(0, 0, 0), vec(3, 0, 0) }, { twist = 720 }):volume()",
+    ]), @"");
+}
+
+#[test]
+fn text_that_is_not_utf_8_and_methods_of_other_names_are_refused_with_their_own_name() {
+    insta::assert_snapshot!(refusals(&[
+        "text(\"Caf\\xe9\")",
+        "square:roof({ kind = \"gable\" })",
+        "square:roof({ kind = \"gabled\", slope = 95 })",
+        "square:roof({ kind = \"onion\", overhang = 1 })",
+    ]), @"");
+}
+
+#[test]
 fn holes_turns_and_mapped_roofs_that_cannot_be_made_are_refused() {
     insta::assert_snapshot!(refusals(&[
         "revolve()",
