@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use burgeon_base::Stop;
 use burgeon_base::error::{Error, Limit, Result};
-use burgeon_base::warning::{Warning, WarningKind, defer_warning};
+use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_kit::{Color, Drawing};
 use burgeon_scene::{Material, Part, SurfaceMeaning};
 use burgeon_shapes::{FaceStyle, PolygonMesh, Scope, ShapeBody, SharedStyle};
@@ -52,7 +52,7 @@ pub(crate) fn draw_building(
 /// Draws the faces of a shape at `transform`. Texture coordinates are metres in the plane of each face, x to the right seen
 /// from outside and y upwards, unless a projection gives others.
 ///
-/// Returns a warning if the shape draws nothing.
+/// Returns a warning if the shape draws nothing, or if a face lacks the set of texture coordinates that its dirt map uses.
 pub(crate) fn draw_shape(
     to: ShapeTarget<'_>,
     transform: &DAffine3,
@@ -115,7 +115,7 @@ fn draw(
         let text = format!("a face has no set {set:?}, which the dirt map of its material uses");
         let help =
             format!("give its shape the set: shape:project(8, 4, {{ set = {set:?} }}), or omit dirt_set");
-        defer_warning(Warning::new(WarningKind::NoEffect, text).help(help));
+        return Ok(Some(Warning::new(WarningKind::NoEffect, text).help(help)));
     }
     Ok(None)
 }
