@@ -62,7 +62,12 @@ fn a_style_overrides_the_preset_that_it_extends_and_options_override_both() {
     assert!(dark.starts_with("A(60,false,\"a\","), "{dark}");
     assert_eq!(dark, run(&["--seed", "7", "--set", "floors=60"]));
     assert!(run(&["--preset", "dark", "--set", "floors=2"]).starts_with("A(2,false"));
-    assert_snapshot!(refused("{ \"tall\": { \"params\": {\n\"flors\": 60 } },\n\"dark\": { \"extends\": \"tall\" } }", &["--preset", "dark"]), @"");
+    assert_snapshot!(refused("{ \"tall\": { \"params\": {\n\"flors\": 60 } },\n\"dark\": { \"extends\": \"tall\" } }", &["--preset", "dark"]), @r#"
+    error: tower.presets.json:2:2: preset dark sets the unknown parameter `flors` of tower.lua
+      | "flors": 60 } },
+      |  ^^^^^
+      help: did you mean floors?
+    "#);
 }
 
 #[test]

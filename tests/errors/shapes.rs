@@ -163,11 +163,14 @@ fn a_sweep_with_turns_tighter_than_the_profile_names_its_tightest_turn_once() {
     insta::assert_snapshot!(warnings(&[
         "square:sweep({ vec(0, 0, 0), vec(3, 0, 0), vec(3, -1, 0), vec(0, -1, 0) }, { joint = \"smooth\" }):volume()",
         "square:sweep({ vec(0, 0, 0), vec(3, 0, 0) }, { twist = 720 }):volume()",
-    ]), @r"
+    ]), @r#"
+    warning: s.lua:5: shape:sweep: 14 segments of the path, first 8, 9, 10, 11, 12, are too short for their joints, so the solid crosses itself; its tightest turn, at point 10, has a radius of 0.276 m
+      | local _ = square:sweep({ vec(0, 0, 0), vec(3, 0, 0), vec(3, -1, 0), vec(0, -1, 0) }, { joint = "smooth" }):volume()
+      help: use a narrower profile, or a path that turns less sharply
     warning: s.lua:6: shape:sweep: the profile twists by about 720 degrees from one point of the path to the next
       | local _ = square:sweep({ vec(0, 0, 0), vec(3, 0, 0) }, { twist = 720 }):volume()
       help: add points to the path, so that it twists by at most 90 degrees between them
-    ");
+    "#);
 }
 
 #[test]

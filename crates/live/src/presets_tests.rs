@@ -138,10 +138,7 @@ fn a_preset_that_extends_others_has_their_values_and_the_nearest_ones_win() {
     let dark = Presets::read(&script).unwrap().get("dark").unwrap();
     let number = |name: &str, value: f64| (name.to_owned(), Setting::Number(value));
     let lit = ("lit".to_owned(), Setting::Boolean(false));
-    assert_eq!(
-        (dark.params, dark.seed),
-        (vec![lit, number("floors", 60.0), number("twist", 2.0)], Some(7))
-    );
+    assert_eq!((dark.params, dark.seed), (vec![lit, number("floors", 60.0), number("twist", 2.0)], Some(7)));
     let lines: Vec<usize> = dark.places.iter().map(|place| place.line).collect();
     assert_eq!(lines, [1, 2, 3]);
     // The file keeps what extends what.

@@ -102,15 +102,16 @@ impl ShapeObject {
             let numbers: Vec<String> =
                 crossing.iter().take(5).map(|number| format!("{}", number + 1)).collect();
             let (count, what) = (crossing.len(), listed(numbers.iter().map(String::as_str)));
-            let which = if count > numbers.len() {
-                format!("{count} segments, first {what},")
-            } else {
-                format!("segment {what}")
+            let which = match count {
+                1 => format!("segment {what} of the path is"),
+                _ if count > numbers.len() => format!("{count} segments of the path, first {what}, are"),
+                _ => format!("segments {what} of the path are"),
             };
             warn(
                 "sweep",
                 &format!(
-                    "{which} of the path is too short for its joints, so the solid crosses itself{}",
+                    "{which} too short for {}, so the solid crosses itself{}",
+                    if count == 1 { "its joints" } else { "their joints" },
                     tightest(&path)
                 ),
                 "use a narrower profile, or a path that turns less sharply",
