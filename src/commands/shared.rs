@@ -249,7 +249,7 @@ impl ScriptFlags {
             // The run reports a missing script.
             Some(name) if self.script.is_file() => {
                 let (path, inner) = self.presets(name)?;
-                let preset = Presets::read_file(&path)?.into_preset(&inner)?;
+                let preset = Presets::read_file(&path)?.get(&inner)?;
                 Some(match FileName::parse(name) {
                     Ok(file) => preset.of_package(&file.package),
                     Err(_) => preset,

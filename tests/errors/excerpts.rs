@@ -220,6 +220,69 @@ fn a_missing_texture_has_its_line_and_the_nearest_file() {
 }
 
 #[test]
+fn a_dirt_map_without_its_file_its_set_or_a_shape_is_reported_with_its_line() {
+    let tried = |fields: &str, draw: &str| {
+        let script = format!(
+            "local A = module(\"A\")\nlocal s = lsystem({{ object = extruder() }}) s:axiom(A())\ns:interpret(\"A\", function(this)\n  local wall = rectangle(4, 3)\n  local grime = {{ {fields} }}\n  {draw}\nend)\ns:derive(0)\n"
+        );
+        let folder = Folder::new().with("s.lua", &script).with("stain.png", "x");
+        folder.burgeon(&["check", "s.lua"]).stderr
+    };
+    let own = "dirt = \"stain.png\", dirt_set = \"grime\"";
+    assert_snapshot!(tried(own, "this:shape(wall:material(grime))"), @r#"
+    warning: s.lua:6:28: rule A (interpretation): a face has no set "grime", which the dirt map of its material uses
+      | this:shape(wall:material(grime))
+      |                          ^^^^^
+      module: A, step 0
+      help: give its shape the set: shape:project(8, 4, { set = "grime" }), or omit dirt_set
+    s.lua has 1 warning
+    "#);
+    assert_snapshot!(tried(own, "this:material(grime):shape(wall:project(2, 2, { set = \"soot\" }))"), @r#"
+    warning: s.lua:6:17: rule A (interpretation): a face has no set "grime", which the dirt map of its material uses
+      | this:material(grime):shape(wall:project(2, 2, { set = "soot" }))
+      |               ^^^^^
+      module: A, step 0
+      help: give its shape the set: shape:project(8, 4, { set = "grime" }), or omit dirt_set
+    s.lua has 1 warning
+    "#);
+    assert_snapshot!(tried(own, "this:material(grime):extrude(2)"), @r#"
+    warning: s.lua:5:9: the dirt map of a material uses the set "grime", which surfaces that are no shapes lack
+      | local grime = { dirt = "stain.png", dirt_set = "grime" }
+      |       ^^^^^
+      help: only shapes have sets, from shape:project: omit dirt_set, so that the image lies as the texture does
+    s.lua has 1 warning
+    "#);
+    let set = tried(own, "this:shape(wall:material(grime):project(2, 2, { set = \"grime\" }))");
+    assert!(!set.contains("warning"), "{set}");
+    assert_snapshot!(tried("dirt = \"stein.png\"", "this:material(grime):extrude(2)"), @r#"
+    error: s.lua:5:27: dirt map not found: "stein.png"
+      | local grime = { dirt = "stein.png" }
+      |                         ^^^^^^^^^
+      help: dirt maps are files next to the script: put the file there, or change its name in the script
+    "#);
+    assert_snapshot!(tried("dirt_set = \"grime\"", "this:material(grime):extrude(2)"), @r"
+    error: s.lua:6:8: rule A (interpretation): material: dirt_set has no effect without a dirt map
+      | this:material(grime):extrude(2)
+      |      ^^^^^^^^
+      module: A, step 0
+      help: give the image file of the dirt map in dirt
+    ");
+    assert_snapshot!(tried("dirt = \"stain.png\", dirt_size = { 2 }", "this:material(grime):extrude(2)"), @r"
+    error: s.lua:6:8: rule A (interpretation): material: dirt_size must be { width, height } in metres, above 0
+      | this:material(grime):extrude(2)
+      |      ^^^^^^^^
+      module: A, step 0
+    ");
+    assert_snapshot!(tried(own, "this:shape(wall:project(2, 2, { set = \"\" }))"), @r#"
+    error: s.lua:6:19: rule A (interpretation): shape:project: the name of the set is empty
+      | this:shape(wall:project(2, 2, { set = "" }))
+      |                 ^^^^^^^
+      module: A, step 0
+      help: give a name, such as "dirt", or omit set to place the texture
+    "#);
+}
+
+#[test]
 fn a_missing_normal_map_has_its_line_and_an_impossible_one_its_reason() {
     let tried = |fields: &str| {
         let script = format!(

@@ -52,6 +52,25 @@ fn a_preset_gives_parameters_and_seed_and_what_is_given_by_hand_wins() {
 }
 
 #[test]
+fn a_style_overrides_the_preset_that_it_extends_and_options_override_both() {
+    let presets = "{ \"tall\": { \"seed\": 7, \"params\": { \"floors\": 60, \"lit\": true } },\n\"dark\": { \"extends\": \"tall\", \"params\": { \"lit\": false } } }";
+    let run = |flags: &[&str]| {
+        let folder = Folder::new().with("tower.lua", SCRIPT).with("tower.presets.json", presets);
+        chain(folder.burgeon(&[&["run", "tower.lua", "--chain", "-"], flags].concat()))
+    };
+    let dark = run(&["--preset", "dark"]);
+    assert!(dark.starts_with("A(60,false,\"a\","), "{dark}");
+    assert_eq!(dark, run(&["--seed", "7", "--set", "floors=60"]));
+    assert!(run(&["--preset", "dark", "--set", "floors=2"]).starts_with("A(2,false"));
+    assert_snapshot!(refused("{ \"tall\": { \"params\": {\n\"flors\": 60 } },\n\"dark\": { \"extends\": \"tall\" } }", &["--preset", "dark"]), @r#"
+    error: tower.presets.json:2:2: preset dark sets the unknown parameter `flors` of tower.lua
+      | "flors": 60 } },
+      |  ^^^^^
+      help: did you mean floors?
+    "#);
+}
+
+#[test]
 fn an_unknown_preset_is_told_with_the_nearest_or_with_all() {
     assert_snapshot!(refused(PRESETS, &["--preset", "tal"]), @r"
     error: unknown preset `tal` in tower.presets.json

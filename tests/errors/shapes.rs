@@ -146,7 +146,7 @@ fn shapes_that_differ_from_the_request_are_warnings() {
     warning: s.lua:6: text: the font lacks 'ע', so boxes stand for them
       | local _ = text("ע"):face_count()
       help: use a font that has these letters: font("file.ttf")
-    warning: s.lua:7: shape:sweep: segment 2 of the path is too short for its joints, so the solid crosses itself
+    warning: s.lua:7: shape:sweep: segment 2 of the path is too short for its joints, so the solid crosses itself; its tightest turn, at point 2, has a radius of 0.050 m
       | local _ = square:sweep({ vec(0, 0, 0), vec(3, 0, 0), vec(3, -0.1, 0), vec(0, -0.1, 0) }):volume()
       help: use a narrower profile, or a path that turns less sharply
     warning: s.lua:8: shape:trim_to: the face has no neighbours, so nothing is cut
@@ -155,6 +155,40 @@ fn shapes_that_differ_from_the_request_are_warnings() {
     warning: s.lua:9: shape:reduce: 0.500 of the triangles remain, not 0.1, since no other can be removed
       | local _ = square:reduce(0.1)
       help: use a larger share, or a simpler shape
+    "#);
+}
+
+#[test]
+fn a_sweep_with_turns_tighter_than_the_profile_names_its_tightest_turn_once() {
+    insta::assert_snapshot!(warnings(&[
+        "square:sweep({ vec(0, 0, 0), vec(3, 0, 0), vec(3, -1, 0), vec(0, -1, 0) }, { joint = \"smooth\" }):volume()",
+        "square:sweep({ vec(0, 0, 0), vec(3, 0, 0) }, { twist = 720 }):volume()",
+    ]), @r#"
+    warning: s.lua:5: shape:sweep: 14 segments of the path, first 8, 9, 10, 11, 12, are too short for their joints, so the solid crosses itself; its tightest turn, at point 10, has a radius of 0.276 m
+      | local _ = square:sweep({ vec(0, 0, 0), vec(3, 0, 0), vec(3, -1, 0), vec(0, -1, 0) }, { joint = "smooth" }):volume()
+      help: use a narrower profile, or a path that turns less sharply
+    warning: s.lua:6: shape:sweep: the profile twists by about 720 degrees from one point of the path to the next
+      | local _ = square:sweep({ vec(0, 0, 0), vec(3, 0, 0) }, { twist = 720 }):volume()
+      help: add points to the path, so that it twists by at most 90 degrees between them
+    "#);
+}
+
+#[test]
+fn text_that_is_not_utf_8_and_methods_of_other_names_are_refused_with_their_own_name() {
+    insta::assert_snapshot!(refusals(&[
+        "text(\"Caf\\xe9\")",
+        "square:roof({ kind = \"gabled\", slope = 95 })",
+        "square:roof({ kind = \"onion\", overhang = 1 })",
+    ]), @r#"
+    text("Caf\xe9")
+    error: s.lua:2:14: text: character 4 of the text is no letter: its bytes are not UTF-8
+      help: save the script or the data as UTF-8, and take parts of a text with utf8.offset
+    square:roof({ kind = "gabled", slope = 95 })
+    error: s.lua:2:21: shape:roof: slope is 95 degrees
+      help: give degrees above 0, up to 85
+    square:roof({ kind = "onion", overhang = 1 })
+    error: s.lua:2:21: shape:roof: an onion roof has no overhang
+      help: omit overhang
     "#);
 }
 
@@ -205,10 +239,10 @@ fn holes_turns_and_mapped_roofs_that_cannot_be_made_are_refused() {
     error: s.lua:2:21: shape:roof: apexes must be a list of points, such as { { 6, 4 }, { 9, 4, 3.5 } }, not 3
       help: write shape:roof(options: { [string]: any }?)
     square:roof({ apexes = { { 0.5, 0.5, 5000 } } })
-    error: s.lua:2:21: shape:roof: footprint:roof: the height of a point is 5000 m
+    error: s.lua:2:21: shape:roof: the height of a point is 5000 m
       help: give metres above 0, up to 2000
     square:roof({ levels = 0 })
-    error: s.lua:2:21: shape:roof: footprint:roof: levels is 0
+    error: s.lua:2:21: shape:roof: levels is 0
       help: give a number of storeys above 0, up to 20
     "#);
 }

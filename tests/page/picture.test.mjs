@@ -194,6 +194,33 @@ test("a normal map that leans up is lighter than one that leans down, and a flat
   });
 });
 
+test("a dirt map darkens the colour, also in the plain frames and on top of a texture", () => {
+  const walls = (fields) => BLOCKS.replace("this:color(color)", `this:material({ color = "#ffffff", ${fields} })`);
+  return open(BLOCKS, async ({ page, script }) => {
+    let last = await drawn(page);
+    for (const [name, color] of Object.entries({ light: "#e0e0e0", half: "#808080" })) {
+      const url = await page.evaluate((color) => {
+        const canvas = document.createElement("canvas");
+        [canvas.width, canvas.height] = [16, 16];
+        const context = canvas.getContext("2d");
+        context.fillStyle = color;
+        context.fillRect(0, 0, 16, 16);
+        return canvas.toDataURL("image/png").split(",")[1];
+      }, color);
+      writeFileSync(join(script, "..", `${name}.png`), Buffer.from(url, "base64"));
+    }
+    const light = [];
+    for (const fields of ['roughness = 0.8', 'dirt = "half.png"', 'texture = "light.png"', 'texture = "light.png", dirt = "half.png"']) {
+      save(script, walls(fields));
+      last = await drawn(page, last);
+      await page.waitForTimeout(1000);
+      const picture = await pixels(page);
+      light.push(picture.reduce((sum, value) => sum + value, 0) / picture.length);
+    }
+    assert.ok(light[0] > light[1] + 0.3 && light[2] > light[3] + 0.3, JSON.stringify(light));
+  });
+});
+
 test("a planet stands free, its size is in kilometres, and its radius is seen whole", () =>
   open(
     PLANET,

@@ -48,10 +48,9 @@ const made = new WeakMap();
 export function faceted(material) {
   if (!made.has(material)) {
     const flat = material.clone();
-    flat.defines = { ...flat.defines, FACETED: '' };
     // These are not copied, and a theme's colour holds for both.
-    const { color, onBeforeCompile, customProgramCacheKey } = material;
-    Object.assign(flat, { onBeforeCompile, customProgramCacheKey }, color && { color });
+    const { color, defines, onBeforeCompile, customProgramCacheKey } = material;
+    Object.assign(flat, { defines: { ...defines, FACETED: '' }, onBeforeCompile, customProgramCacheKey }, color && { color });
     material.addEventListener('dispose', () => flat.dispose());
     made.set(material, flat);
   }

@@ -11,6 +11,7 @@ import {
   SRGBColorSpace,
   Texture,
 } from 'three';
+import { soil } from './dirt.js';
 
 export class Materials {
   #materials = new Map();
@@ -27,18 +28,19 @@ export class Materials {
     const { materials = [], textures = [] } = glb.json;
     // Normal maps are directions, which are read as they are, and textures are colours.
     const indices = (of) => [...new Set(materials.map(of).filter((index) => index !== undefined))];
-    const load = async (of, isColor) => {
-      const all = indices(of).map(async (index) => [index, await this.#texture(glb.image(textures[index].source), isColor)]);
-      return new Map(await Promise.all(all));
+    const load = async (of, isColor, set = 0) => {
+      const read = (index) => this.#texture(glb.image(textures[index].source), isColor, set);
+      return new Map(await Promise.all(indices(of).map(async (index) => [index, await read(index)])));
     };
     const [colorOf, normalOf] = [(it) => it.pbrMetallicRoughness?.baseColorTexture?.index, (it) => it.normalTexture?.index];
-    const [colors, normals] = await Promise.all([load(colorOf, true), load(normalOf, false)]);
-    const pictures = [...colors.values(), ...normals.values()];
+    const dirtOf = (it) => it.occlusionTexture?.index;
+    const [colors, normals, dirt] = await Promise.all([load(colorOf, true), load(normalOf, false), load(dirtOf, true, 1)]);
+    const pictures = [...colors.values(), ...normals.values(), ...dirt.values()];
     const used = new Map();
     const made = materials.map((given) => {
-      const [picture, normal] = [colors.get(colorOf(given)), normals.get(normalOf(given))];
-      const key = JSON.stringify([{ ...given, name: undefined }, picture?.id, normal?.id]);
-      if (!used.has(key)) used.set(key, this.#materials.get(key) ?? material(given, picture, normal, this.dull));
+      const own = { picture: colors.get(colorOf(given)), normal: normals.get(normalOf(given)), dirt: dirt.get(dirtOf(given)) };
+      const key = JSON.stringify([{ ...given, name: undefined }, own.picture?.id, own.normal?.id, own.dirt?.id]);
+      if (!used.has(key)) used.set(key, this.#materials.get(key) ?? material(given, own, this.dull));
       return used.get(key);
     });
     const add = () => used.forEach((it, key) => this.#materials.set(key, it));
@@ -51,8 +53,8 @@ export class Materials {
   /** A grey of the exporter's own for primitives without a material. */
   plain = new MeshStandardMaterial({ color: 0x999999, roughness: 0.8 });
 
-  async #texture({ bytes, type }, isColor) {
-    const known = this.#textures.find((it) => it.isColor === isColor && same(it.bytes, bytes));
+  async #texture({ bytes, type }, isColor, set) {
+    const known = this.#textures.find((it) => it.isColor === isColor && it.set === set && same(it.bytes, bytes));
     if (known) return known.texture;
     const settings = { premultiplyAlpha: 'none', colorSpaceConversion: 'none' };
     const picture = await createImageBitmap(new Blob([bytes], { type }), settings);
@@ -63,8 +65,9 @@ export class Materials {
     texture.magFilter = LinearFilter;
     texture.minFilter = LinearMipmapLinearFilter;
     texture.anisotropy = 8;
+    texture.channel = set;
     texture.needsUpdate = true;
-    this.#textures.push({ bytes: bytes.slice(), isColor, texture });
+    this.#textures.push({ bytes: bytes.slice(), isColor, set, texture });
     return texture;
   }
 
@@ -94,7 +97,7 @@ export function depth(material) {
   return depths.get(material);
 }
 
-function material(given, picture, normal, dull) {
+function material(given, { picture, normal, dirt }, dull) {
   const { baseColorFactor = [1, 1, 1, 1], metallicFactor = 1, roughnessFactor = 1 } = given.pbrMetallicRoughness ?? {};
   const [r, g, b, opacity] = baseColorFactor;
   const made = new MeshStandardMaterial({ roughness: roughnessFactor, metalness: metallicFactor * (dull ? 0.3 : 1) });
@@ -109,6 +112,7 @@ function material(given, picture, normal, dull) {
     const scale = given.normalTexture.scale ?? 1;
     made.normalScale.set(scale, -scale);
   }
+  if (dirt) soil(made, dirt);
   if (given.alphaMode === 'BLEND') Object.assign(made, { transparent: true, opacity, depthWrite: false });
   if (given.alphaMode === 'MASK') made.alphaTest = given.alphaCutoff ?? 0.5;
   return made;

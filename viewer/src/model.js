@@ -153,6 +153,7 @@ export function geometry(glb, { attributes, indices }, attribute) {
   made.setAttribute('position', attribute(attributes.POSITION));
   if (attributes.NORMAL !== undefined) made.setAttribute('normal', attribute(attributes.NORMAL));
   if (attributes.TEXCOORD_0 !== undefined) made.setAttribute('uv', attribute(attributes.TEXCOORD_0));
+  if (attributes.TEXCOORD_1 !== undefined) made.setAttribute('uv1', attribute(attributes.TEXCOORD_1));
   made.setIndex(new BufferAttribute(indices === undefined ? counting(made) : glb.array(indices), 1));
   made.boundingBox = new Box3(new Vector3(...min), new Vector3(...max));
   made.boundingSphere = made.boundingBox.getBoundingSphere(new Sphere());

@@ -24,6 +24,10 @@ ${VARYINGS}
 #ifdef PICTURE
 varying vec2 at;
 #endif
+#ifdef DIRTY
+attribute vec2 uv1;
+varying vec2 second;
+#endif
 
 // sRGB by square roots, which cost less than powers; off by 2.5 of 255 near black and by less elsewhere.
 vec3 encoded(vec3 color) {
@@ -34,6 +38,8 @@ vec3 encoded(vec3 color) {
 vec3 seen(vec3 normal) {
   vec3 light = middle + above * dot(normal, up) + bright * max(dot(normal, sun), 0.0);
 #ifdef PICTURE
+  return light;
+#elif defined(DIRTY)
   return light;
 #else
   return encoded(CustomToneMapping(light));
@@ -55,6 +61,9 @@ void main() {
 #ifdef PICTURE
   at = uv;
 #endif
+#ifdef DIRTY
+  second = uv1;
+#endif
 }`;
 
 const FRAGMENT = /* glsl */ `
@@ -63,11 +72,17 @@ const FRAGMENT = /* glsl */ `
 #include <fog_pars_fragment>
 uniform float opacity;
 ${VARYINGS}
-#ifdef PICTURE
-uniform sampler2D map;
+#if defined(PICTURE) || defined(DIRTY)
 uniform vec3 emissive;
 uniform float least;
+#endif
+#ifdef PICTURE
+uniform sampler2D map;
 varying vec2 at;
+#endif
+#ifdef DIRTY
+uniform sampler2D dirt;
+varying vec2 second;
 #endif
 
 void main() {
@@ -78,6 +93,11 @@ void main() {
 #endif
 #ifdef PICTURE
   color *= texture2D(map, at);
+#endif
+#ifdef DIRTY
+  color.rgb *= texture2D(dirt, second).rgb;
+#endif
+#if defined(PICTURE) || defined(DIRTY)
   if (color.a < least) discard;
   gl_FragColor = vec4(color.rgb + emissive, color.a);
   #include <tonemapping_fragment>
@@ -129,13 +149,14 @@ export class Plain {
 }
 
 function plain(material, { sky, sun }, seen) {
-  const { map, color, metalness, emissiveIntensity, opacity, alphaTest } = material;
+  const { map, aoMap: dirt, color, metalness, emissiveIntensity, opacity, alphaTest } = material;
   const { side, transparent, depthWrite, defines } = material;
   // Whatever is the same for all vertices is multiplied here: each of them has a price.
   const surface = new Color().copy(color).multiplyScalar((1 - metalness) / Math.PI);
   const lit = (light, own) => new Color().copy(own).multiplyScalar(light.intensity).multiply(surface);
   const [high, low] = [lit(sky, sky.color), lit(sky, sky.groundColor)];
   const middle = high.clone().add(low).multiplyScalar(0.5);
+  const pictured = map || dirt;
   const emissive = new Color().copy(material.emissive).multiplyScalar(emissiveIntensity);
   return new ShaderMaterial({
     vertexShader: VERTEX,
@@ -145,9 +166,10 @@ function plain(material, { sky, sun }, seen) {
       ...UniformsUtils.clone(UniformsLib.fog),
       ...seen,
       bright: { value: lit(sun, sun.color) },
-      middle: { value: map ? middle : middle.add(emissive) },
+      middle: { value: pictured ? middle : middle.add(emissive) },
       above: { value: high.sub(low).multiplyScalar(0.5) },
       map: { value: map },
+      dirt: { value: dirt },
       emissive: { value: emissive },
       opacity: { value: opacity },
       least: { value: alphaTest },
@@ -157,6 +179,6 @@ function plain(material, { sky, sun }, seen) {
     depthWrite,
     clipping: true,
     fog: true,
-    toneMapped: Boolean(map),
+    toneMapped: Boolean(pictured),
   });
 }

@@ -14,6 +14,7 @@ mod queries;
 mod recipe;
 pub mod results;
 pub mod run;
+mod texture_sets;
 pub mod trace;
 
 /// Inputs of a run, declarations of its script, and the virtual machines that run it.

@@ -12,6 +12,7 @@ use crate::machine::{Machine, Watchdog};
 use crate::results::{
     DerivedSystem, FeatureReport, Times, Trace, emptiness, idleness, is_whole, left_out, tells_of_emptiness,
 };
+use crate::texture_sets;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::Warning;
 use burgeon_packages::LockedPackage;
@@ -155,6 +156,7 @@ fn run_stages(session: &Arc<Session>) -> Result<Run> {
     }
     systems.iter().filter_map(|system| left_out(system)).for_each(|warning| session.warn(warning));
     find_textures(&mut scene, session)?;
+    texture_sets::missing_sets(&scene, session).into_iter().for_each(|warning| session.warn(warning));
     times.scene = begin.elapsed();
     if let Some(part) = session.options.part.filter(|_| scene.triangles() == 0) {
         session.add_note(part.empty_note());
@@ -281,11 +283,13 @@ pub fn no_such(script: &Path, name: &str, params: &[Param]) -> Error {
     }
 }
 
-/// Resolves the names of textures and normal maps to files in the script's folder or in packages.
+/// Resolves the names of textures, normal maps and dirt maps to files in the script's folder or in packages.
 fn find_textures(scene: &mut Scene, session: &Session) -> Result<()> {
     let images = scene.materials.iter_mut().flat_map(|material| {
         let normal_map = material.normal_map.as_mut().map(|map| ("normal map", &mut map.image));
-        material.texture.as_mut().map(|texture| ("texture", texture)).into_iter().chain(normal_map)
+        let dirt_map = material.dirt_map.as_mut().map(|map| ("dirt map", &mut map.image));
+        let texture = material.texture.as_mut().map(|texture| ("texture", texture));
+        texture.into_iter().chain(normal_map).chain(dirt_map)
     });
     for (what, texture) in images.filter(|(_, texture)| texture.content.is_none()) {
         let shown = texture.path.display().to_string();

@@ -142,9 +142,18 @@ fn check_part(scene: &Scene, part: &Part) -> Result<PartExtent, String> {
         if !size.iter().all(|size| *size > 0.0 && size.is_finite()) {
             return Err(format!("has a texture of {width} m by {height} m"));
         }
+        let relief = material.normal_map.as_ref().map(|map| &map.image);
         #[allow(clippy::float_cmp, reason = "the sizes come from one field")]
-        if material.images().any(|image| image.size != size) {
+        if material.texture.iter().chain(relief).any(|image| image.size != size) {
             return Err("has a texture and a normal map of different sizes".into());
+        }
+        if let Some([width, height]) = material.dirt_map.as_ref().map(|dirt| dirt.image.size)
+            && ![width, height].iter().all(|size| *size > 0.0 && size.is_finite())
+        {
+            return Err(format!("has a dirt map of {width} m by {height} m"));
+        }
+        if part.second_uvs.len() > count || !part.second_uvs.iter().all(|uv| usable(uv.x) && usable(uv.y)) {
+            return Err("has second texture coordinates that are not finite, too large or too many".into());
         }
         if !part.uvs.iter().all(|uv| usable(uv.x) && usable(uv.y)) {
             return Err("has texture coordinates that are not finite or too large".into());

@@ -1,6 +1,6 @@
 //! Scenes for the tests of all formats.
 
-use burgeon_scene::{Instance, Material, Mesh, NormalMap, Part, Scene, Texture};
+use burgeon_scene::{DirtMap, Instance, Material, Mesh, NormalMap, Part, Scene, Texture};
 use glam::{DAffine3, DMat3, DQuat, DVec3, Vec2, Vec3};
 use std::path::Path;
 
@@ -141,6 +141,20 @@ pub(super) fn relief_boxes(folder: &Path) -> Scene {
         material.normal_map = Some(NormalMap { image, scale });
     }
     scene.materials[1].texture = None;
+    scene
+}
+
+/// Returns textured boxes, of which two have dirt maps: one by a second set of texture coordinates, and one without a texture.
+pub(super) fn stained_boxes(folder: &Path) -> Scene {
+    let mut scene = textured_boxes(folder);
+    let stain = image::RgbImage::from_fn(8, 8, |x, y| image::Rgb([(x * 30) as u8, (y * 30) as u8, 90]));
+    stain.save(folder.join("stain.png")).unwrap();
+    let image = Texture { path: folder.join("stain.png"), size: [4.0, 2.0], content: None };
+    let map = |set: &str| Some(DirtMap { image: image.clone(), set: set.into() });
+    (scene.materials[0].dirt_map, scene.materials[1].dirt_map) = (map("dirt"), map(""));
+    scene.materials[1].texture = None;
+    let part = &mut scene.meshes[0].parts[0];
+    part.second_uvs = part.positions.iter().map(|at| Vec2::new(at.x * 12.0 + at.z, at.y * 3.0)).collect();
     scene
 }
 

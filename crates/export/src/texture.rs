@@ -5,6 +5,7 @@ use super::color::linear;
 use super::files::Files;
 use super::stem;
 use burgeon_base::error::{Error, Result};
+use burgeon_base::{Warning, WarningKind};
 use burgeon_scene::image::{self, ImageKind};
 use burgeon_scene::{Material, Texture};
 use std::fs;
@@ -19,6 +20,8 @@ pub(super) struct Images {
     pub(super) of_material: Vec<Option<usize>>,
     /// The same of its normal map; `None` if the format has no normal maps.
     pub(super) normals: Vec<Option<usize>>,
+    /// The same of its dirt map; `None` if the format has no second set of texture coordinates.
+    pub(super) dirt: Vec<Option<usize>>,
 }
 
 /// PNG or JPEG file, unchanged.
@@ -37,9 +40,18 @@ pub(super) struct ImageFile {
 impl Images {
     /// Reads the files of textures. Fails if one of them does not exist or is neither PNG nor JPEG.
     pub(super) fn load(checked: &SceneCheck<'_>) -> Result<Self> {
-        let mut images = Self { files: Vec::new(), of_material: Vec::new(), normals: Vec::new() };
+        let none = vec![None; checked.scene.materials.len()];
+        let mut images =
+            Self { files: Vec::new(), of_material: Vec::new(), normals: none.clone(), dirt: none };
         images.of_material = images.read_all(checked, "texture", |material| material.texture.as_ref())?;
-        images.normals = vec![None; images.of_material.len()];
+        Ok(images)
+    }
+
+    /// Reads the files of textures, normal maps and dirt maps. Fails as [`load`](Self::load) does.
+    pub(super) fn load_all(checked: &SceneCheck<'_>) -> Result<Self> {
+        let mut images = Self::load_with_normals(checked)?;
+        images.dirt = images
+            .read_all(checked, "dirt map", |material| material.dirt_map.as_ref().map(|map| &map.image))?;
         Ok(images)
     }
 
@@ -103,6 +115,17 @@ impl Images {
         }
         names
     }
+}
+
+/// Returns a warning if shown materials have dirt maps, for a format that has one image and one set of texture coordinates.
+pub(super) fn dirt_warning(checked: &SceneCheck<'_>, path: &Path) -> Option<Warning> {
+    let materials = checked.scene.materials.iter().zip(&checked.materials);
+    let count = materials.filter(|(material, shown)| **shown && material.dirt_map.is_some()).count();
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let materials = if count == 1 { "a material".into() } else { format!("{count} materials") };
+    let message = format!("{name} has no dirt map of {materials}: the format has one image on a surface");
+    let warning = Warning::new(WarningKind::NoEffect, message);
+    (count > 0).then(|| warning.help("write a .glb, a page or a render, which have it"))
 }
 
 /// Maximum size of an image file (bytes).

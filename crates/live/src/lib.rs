@@ -9,6 +9,8 @@ pub mod curves;
 pub mod films;
 mod json_file;
 pub mod presets;
+#[cfg(test)]
+mod presets_tests;
 pub mod variations;
 #[cfg(feature = "server")]
 mod view;

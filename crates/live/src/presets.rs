@@ -8,13 +8,20 @@
 //!       "floors": 60,
 //!       "twist": 2
 //!     }
+//!   },
+//!   "dark": {
+//!     "extends": "tall",
+//!     "params": { "lit": false }
 //!   }
 //! }
 //! ```
 //!
+//! A preset that extends another one has its seed and its values, except those of its own.
+//!
 //! Input: the path of a script, or a [`Preset`] to save. Output: its [`Presets`], and their file. A file in another
 //! format is rejected and never overwritten.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use serde_json::value::RawValue;
@@ -22,7 +29,7 @@ use serde_json::{Map, Number, Value};
 
 use super::json_file::write_json;
 use crate::watch::settled;
-use burgeon_base::error::{Error, Limit, Result};
+use burgeon_base::error::{Error, Limit, Result, SourcePlace};
 use burgeon_base::names::{has_bidi_controls, normal_form};
 use burgeon_engine::script::{JsonText, Preset, Setting, json_excerpt};
 
@@ -31,6 +38,9 @@ const LARGEST: u64 = 16_000_000;
 
 /// Maximum number of characters of a preset's name.
 const LONGEST: usize = 80;
+
+/// Maximum number of presets that extend one another.
+const DEEPEST: usize = 16;
 
 /// Presets of a script, in the order of their file.
 #[derive(Debug, Clone, PartialEq)]
@@ -119,27 +129,33 @@ impl Presets {
     /// Removes the preset called `name` of `script` and returns the others. The file is deleted together with its last
     /// preset.
     ///
-    /// Fails as [`save`](Self::save) does, and if there is no such preset.
+    /// Fails as [`save`](Self::save) does, if there is no such preset, and if another one extends it.
     pub fn remove(script: &Path, name: &str) -> Result<Self> {
         let mut presets = Self::read(script)?;
         presets.get(name)?;
+        let extends = |preset: &&Preset| preset.extends.as_ref().is_some_and(|base| is_same(base, name));
+        if let Some(other) = presets.presets.iter().find(extends) {
+            return Err(Error::argument(format!("preset {} extends {name}, which stays", other.name))
+                .help(format!("remove {} first, or write its values into it", other.name)));
+        }
         presets.presets.retain(|known| !is_same(&known.name, name));
         presets.write()?;
         Ok(presets)
     }
 
-    /// Returns the preset called `name`. Fails if it does not exist; the error lists the names.
-    pub fn get(&self, name: &str) -> Result<&Preset> {
-        let found = self.presets.iter().find(|preset| is_same(&preset.name, name));
-        found.ok_or_else(|| self.unknown_preset(name))
-    }
-
-    /// Returns the preset called `name` without the others. Fails as [`get`](Self::get) does.
-    pub fn into_preset(mut self, name: &str) -> Result<Preset> {
-        match self.presets.iter().position(|preset| is_same(&preset.name, name)) {
-            Some(index) => Ok(self.presets.swap_remove(index)),
-            None => Err(self.unknown_preset(name)),
+    /// Returns the preset called `name`, with the values of those that it extends. Fails if it does not exist; the error lists
+    /// the names.
+    pub fn get(&self, name: &str) -> Result<Preset> {
+        let find = |name: &str| self.presets.iter().find(|preset| is_same(&preset.name, name));
+        let mut own = find(name).cloned().ok_or_else(|| self.unknown_preset(name))?;
+        let mut next = own.extends.take();
+        // The file was checked when it was read.
+        for _ in 0..DEEPEST {
+            let Some(base) = next.and_then(|name| find(&name)) else { break };
+            own = own.over(base);
+            next = base.extends.clone();
         }
+        Ok(own)
     }
 
     fn unknown_preset(&self, name: &str) -> Error {
@@ -168,6 +184,9 @@ impl Presets {
         }
         let presets = self.presets.iter().map(|preset| {
             let mut object = Map::new();
+            if let Some(base) = &preset.extends {
+                object.insert("extends".into(), base.as_str().into());
+            }
             if let Some(seed) = preset.seed {
                 object.insert("seed".into(), seed.into());
             }
@@ -215,7 +234,7 @@ pub fn check_name(name: &str) -> Result<()> {
 
 /// Parses the presets of a file.
 fn parse(text: &JsonText<'_>) -> Result<Vec<Preset>> {
-    let mut presets = Vec::new();
+    let (mut presets, mut bases) = (Vec::new(), Vec::new());
     for (name, raw) in
         text.members(text.value()?, "the file", "{ \"name\": { \"seed\": 0, \"params\": {} } }")?
     {
@@ -231,6 +250,15 @@ fn parse(text: &JsonText<'_>) -> Result<Vec<Preset>> {
                     })?;
                     preset.seed = Some(seed);
                 }
+                "extends" => {
+                    let base: String = serde_json::from_str(raw.get()).map_err(|_| {
+                        Error::data(format!("{what}: invalid name {} in extends", json_excerpt(raw)))
+                            .help("write the name of another preset of the file")
+                            .at(Some(text.place(raw)))
+                    })?;
+                    bases.push((presets.len(), text.place(raw)));
+                    preset.extends = Some(base);
+                }
                 "params" => {
                     for (name, raw) in text.members(raw, &format!("{what}: params"), "{ \"height\": 3 }")? {
                         let setting = read_setting(text, raw, &what, &name)?;
@@ -240,15 +268,48 @@ fn parse(text: &JsonText<'_>) -> Result<Vec<Preset>> {
                 }
                 _ => {
                     let message = format!("unknown field `{key}` in {what}");
-                    return Err(Error::not_found("field", &key, ["seed", "params"], message)
-                        .help("a preset has a seed and params; put parameters into params")
+                    return Err(Error::not_found("field", &key, ["extends", "seed", "params"], message)
+                        .help("a preset has a seed, params, and another one that it extends; put parameters into params")
                         .at(Some(text.place(raw))));
                 }
             }
         }
         presets.push(preset);
     }
+    check_bases(&presets, bases)?;
     Ok(presets)
+}
+
+/// Fails if a preset extends one that does not exist, itself, or too many. `bases` are the numbers of those that extend another one,
+/// with the place of its name.
+fn check_bases(presets: &[Preset], bases: Vec<(usize, SourcePlace)>) -> Result<()> {
+    let names = presets.iter().enumerate().map(|(index, preset)| (normal_form(&preset.name), index));
+    let known: BTreeMap<_, usize> = names.collect();
+    for (index, place) in bases {
+        let (name, mut at) = (&presets[index].name, index);
+        for step in 0.. {
+            let Some(base) = &presets[at].extends else { break };
+            let Some(next) = known.get(&normal_form(base)) else {
+                let message = format!("preset {} extends the unknown preset `{base}`", presets[at].name);
+                let names = presets.iter().map(|preset| preset.name.as_str());
+                return Err(Error::not_found("preset", base, names, message)
+                    .help("write the name of another preset of the file")
+                    .at(Some(place)));
+            };
+            if *next == index || step >= DEEPEST {
+                let cause = if *next == index {
+                    "extends itself".into()
+                } else {
+                    format!("extends more than {DEEPEST} others")
+                };
+                return Err(Error::data(format!("preset {name} {cause}, by way of {base}"))
+                    .help("remove extends from one of them")
+                    .at(Some(place)));
+            }
+            at = *next;
+        }
+    }
+    Ok(())
 }
 
 /// Returns the value in `raw` of the parameter `name`; lists are the points of a drawn function, curve or surface.
@@ -267,172 +328,4 @@ fn read_setting<'a>(text: &JsonText<'a>, raw: &'a RawValue, what: &str, name: &s
             .help("write a number, true, false, a string or a list of points")
             .at(Some(text.place(raw)))
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use burgeon_engine::script::PointRows;
-
-    fn preset(name: &str, twist: f64) -> Preset {
-        let params = vec![
-            ("twist".to_owned(), Setting::Number(twist)),
-            ("lit".to_owned(), Setting::Boolean(true)),
-            ("kind".to_owned(), Setting::Text("a \"b\"".to_owned())),
-            ("taper".to_owned(), Setting::Points(PointRows(vec![vec![0.0, 1.0], vec![1.0, 0.25]]))),
-        ];
-        Preset { name: name.to_owned(), seed: Some(u64::MAX), params, ..Preset::default() }
-    }
-
-    fn refused(text: &str) -> String {
-        let folder = tempfile::tempdir().unwrap();
-        let script = folder.path().join("tower.lua");
-        std::fs::write(Presets::path_of(&script), text).unwrap();
-        let error = Presets::read(&script).unwrap_err();
-        assert!(error.place().is_some(), "{error}");
-        Presets::save(&script, preset("tall", 1.0)).unwrap_err();
-        assert_eq!(std::fs::read_to_string(Presets::path_of(&script)).unwrap(), text);
-        error.to_string().replace(&folder.path().display().to_string(), "FOLDER")
-    }
-
-    #[test]
-    fn what_is_saved_reads_back_and_the_others_stay() {
-        let folder = tempfile::tempdir().unwrap();
-        let script = folder.path().join("tower.lua");
-        assert_eq!(Presets::read(&script).unwrap().names().count(), 0);
-        for (name, twist) in [("tall", 2.5), ("flat", 3.0), ("tall", -4.0)] {
-            Presets::save(&script, preset(name, twist)).unwrap();
-        }
-        let presets = Presets::read(&script).unwrap();
-        assert_eq!(presets.names().collect::<Vec<_>>(), ["tall", "flat"]);
-        let tall = presets.get("tall").unwrap();
-        assert_eq!((&tall.params, tall.seed), (&preset("tall", -4.0).params, Some(u64::MAX)));
-        assert_eq!(tall.places.iter().map(|place| place.line).collect::<Vec<_>>(), [5, 6, 7, 8]);
-        insta::assert_snapshot!(std::fs::read_to_string(Presets::path_of(&script)).unwrap(), @r#"
-        {
-          "tall": {
-            "seed": 18446744073709551615,
-            "params": {
-              "twist": -4,
-              "lit": true,
-              "kind": "a \"b\"",
-              "taper": [
-                [0, 1],
-                [1, 0.25]
-              ]
-            }
-          },
-          "flat": {
-            "seed": 18446744073709551615,
-            "params": {
-              "twist": 3,
-              "lit": true,
-              "kind": "a \"b\"",
-              "taper": [
-                [0, 1],
-                [1, 0.25]
-              ]
-            }
-          }
-        }
-        "#);
-        Presets::remove(&script, "tall").unwrap();
-        assert_eq!(Presets::read(&script).unwrap().names().collect::<Vec<_>>(), ["flat"]);
-        assert!(Presets::remove(&script, "tall").is_err());
-        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
-        Presets::remove(&script, "flat").unwrap();
-        assert_eq!(Presets::read(&script).unwrap().names().count(), 0);
-        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
-    }
-
-    #[test]
-    fn a_file_of_another_form_is_refused_with_its_line_and_kept() {
-        insta::assert_snapshot!(refused("{\n  \"tall\": {\n    \"seed\": 7,,\n"), @r"
-        FOLDER/tower.presets.json:3: this is not JSON: key must be a string
-          help: fix the file, or move it away
-        ");
-        insta::assert_snapshot!(refused(""), @r"
-        FOLDER/tower.presets.json:1: this is not JSON: EOF while parsing a value
-          help: fix the file, or move it away
-        ");
-        insta::assert_snapshot!(refused("[1, 2]"), @r#"
-        FOLDER/tower.presets.json:1: the file is [1, 2], not an object
-          help: write { "name": { "seed": 0, "params": {} } }
-        "#);
-        insta::assert_snapshot!(refused("{ \"tall\": 3 }"), @r#"
-        FOLDER/tower.presets.json:1: preset tall is 3, not an object
-          help: write { "seed": 0, "params": {} }
-        "#);
-        insta::assert_snapshot!(refused("{ \"tall\": {\n\"sed\": 3 } }"), @r"
-        FOLDER/tower.presets.json:2: unknown field `sed` in preset tall
-          help: did you mean seed?
-        ");
-        insta::assert_snapshot!(refused("{ \"tall\": {\n\"floors\": 3 } }"), @r"
-        FOLDER/tower.presets.json:2: unknown field `floors` in preset tall
-          help: a preset has a seed and params; put parameters into params
-        ");
-        insta::assert_snapshot!(refused("{ \"tall\": { \"seed\": -1 } }"), @r"
-        FOLDER/tower.presets.json:1: preset tall: invalid seed -1
-          help: write an integer of at least 0
-        ");
-        insta::assert_snapshot!(refused("{ \"tall\": { \"seed\": 1e400 } }"), @r"
-        FOLDER/tower.presets.json:1: preset tall: invalid seed 1e400
-          help: write an integer of at least 0
-        ");
-        insta::assert_snapshot!(refused("{ \"tall\": { \"params\": {\n\n\"a\": [[0, 1],\n1] } } }"), @r"
-        FOLDER/tower.presets.json:4: preset tall: a: point 2 is 1, not a list of numbers
-          help: write a list of points: [[0, 1], [1, 0.2]]
-        ");
-        insta::assert_snapshot!(refused("{ \"tall\": { \"params\": {\n\n\"a\": null } } }"), @r"
-        FOLDER/tower.presets.json:3: preset tall: invalid value null for a
-          help: write a number, true, false, a string or a list of points
-        ");
-        insta::assert_snapshot!(refused("{ \"tall\": { \"params\": { \"a\": 1e999 } } }"), @r"
-        FOLDER/tower.presets.json:1: preset tall: invalid value 1e999 for a
-          help: write a number, true, false, a string or a list of points
-        ");
-        insta::assert_snapshot!(refused("{ \"tall\": {},\n\"tall\": {} }"), @r"
-        FOLDER/tower.presets.json:2: the file has two members named `tall`
-          help: remove or rename one of them
-        ");
-    }
-
-    #[test]
-    fn names_that_look_the_same_are_one() {
-        let folder = tempfile::tempdir().unwrap();
-        let script = folder.path().join("t.lua");
-        Presets::save(&script, preset("e\u{301}te\u{301}", 1.0)).unwrap();
-        let presets = Presets::save(&script, preset("\u{e9}t\u{e9}", 2.0)).unwrap();
-        assert_eq!(presets.names().collect::<Vec<_>>(), ["\u{e9}t\u{e9}"]);
-        assert_eq!(presets.get("e\u{301}te\u{301}").unwrap().params[0].1, Setting::Number(2.0));
-        assert!(refused("{ \"\u{e9}\": {},\n\"e\u{301}\": {} }").contains("two members named"));
-    }
-
-    #[cfg(unix)]
-    #[test]
-    fn a_link_is_not_read_and_nothing_of_its_target_is_shown() {
-        let folder = tempfile::tempdir().unwrap();
-        let (script, secret) = (folder.path().join("t.lua"), folder.path().join("secret"));
-        std::fs::write(&secret, "password = hunter2\n").unwrap();
-        std::os::unix::fs::symlink(&secret, Presets::path_of(&script)).unwrap();
-        for error in [
-            Presets::read(&script).unwrap_err(),
-            Presets::save(&script, preset("a", 1.0)).unwrap_err(),
-            Presets::remove(&script, "a").unwrap_err(),
-        ] {
-            let text = format!("{error} {:?}", error.place());
-            assert!(text.contains("it is a link") && !text.contains("hunter2"), "{text}");
-            assert!(error.place().is_none(), "{text}");
-        }
-        assert_eq!(std::fs::read_to_string(&secret).unwrap(), "password = hunter2\n");
-    }
-
-    #[test]
-    fn a_name_that_is_hard_to_write_is_refused() {
-        let folder = tempfile::tempdir().unwrap();
-        for name in ["", " ", "a ", "a\nb", "\u{7}", "a\u{202e}b", "\u{2067}a", &"x".repeat(81)] {
-            assert!(Presets::save(&folder.path().join("t.lua"), preset(name, 1.0)).is_err(), "{name:?}");
-        }
-        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
-    }
 }

@@ -77,7 +77,7 @@ pub(crate) fn options_of(
         Some(_) if loader.is_some() => {
             return Err(Error::argument("a script in memory has no presets").help("give values and seed"));
         }
-        Some(name) => Some(Presets::read(script)?.into_preset(name)?),
+        Some(name) => Some(Presets::read(script)?.get(name)?),
         None => None,
     };
     let mut options = values.run_options(preset, print)?;

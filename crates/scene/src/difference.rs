@@ -198,6 +198,7 @@ fn are_equal(before: &Scene, one: &Mesh, after: &Scene, other: &Mesh) -> bool {
                 && a.triangles == b.triangles
                 && a.normals == b.normals
                 && a.uvs == b.uvs
+                && a.second_uvs == b.second_uvs
                 && a.surfaces == b.surfaces
         })
 }

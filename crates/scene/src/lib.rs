@@ -20,7 +20,7 @@ mod upright;
 pub use camera::{CameraView, FittedView, SceneCamera};
 pub use city::CityClass;
 pub use difference::{MaterialDifference, SceneCounts, SceneDifference, ShownFeature};
-pub use material::{Material, NormalMap, Texture};
+pub use material::{DirtMap, Material, NormalMap, Texture};
 pub use mesh::{Mesh, Part};
 pub use nearest::nearest_on_triangle;
 pub use normal::Normal;

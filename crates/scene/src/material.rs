@@ -20,6 +20,8 @@ pub struct Material {
     pub texture: Option<Texture>,
     /// Normal map, of the same size as the texture.
     pub normal_map: Option<NormalMap>,
+    /// Image over the texture, with a size and coordinates of its own.
+    pub dirt_map: Option<DirtMap>,
     /// Set if both sides are visible, as with leaves.
     pub double_sided: bool,
 }
@@ -31,6 +33,15 @@ pub struct NormalMap {
     pub image: Texture,
     /// Factor of the slopes: 0 for a flat surface, 1 for those of the image.
     pub scale: f32,
+}
+
+/// Image that multiplies the colour of a surface on top of its texture, such as dirt, wear or painted shade.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DirtMap {
+    /// The image.
+    pub image: Texture,
+    /// Name of the set of texture coordinates; empty for those of the texture, at the size of the image.
+    pub set: Arc<str>,
 }
 
 /// Image on a surface at its real size.
@@ -45,12 +56,14 @@ pub struct Texture {
 }
 
 impl Material {
-    /// Returns the images of the material: its texture and its normal map.
+    /// Returns the images of the material: its texture, its normal map and its dirt map.
     pub fn images(&self) -> impl Iterator<Item = &Texture> {
-        self.texture.iter().chain(self.normal_map.as_ref().map(|map| &map.image))
+        let relief = self.normal_map.as_ref().map(|map| &map.image);
+        self.texture.iter().chain(relief).chain(self.dirt_map.as_ref().map(|map| &map.image))
     }
 
-    /// Returns the width and height (m) of one repetition of the images; `None` if the material has none.
+    /// Returns the width and height (m) of one repetition of the texture and the normal map, otherwise of the dirt map; `None` if
+    /// the material has no image.
     ///
     /// ```
     /// use burgeon_scene::{Material, NormalMap, Texture};
@@ -76,6 +89,7 @@ impl Default for Material {
             emissive: [0.0; 3],
             texture: None,
             normal_map: None,
+            dirt_map: None,
             double_sided: false,
         }
     }

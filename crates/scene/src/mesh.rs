@@ -32,6 +32,9 @@ pub struct Part {
     pub normals: Vec<Normal>,
     /// Texture coordinates in metres, u to the right and v upwards; an exporter divides by the texture's size.
     pub uvs: Vec<Vec2>,
+    /// Second set of texture coordinates (m), for the dirt map of the material. Vertices beyond its end have those of `uvs`, so
+    /// that it is empty unless an object gives a second set.
+    pub second_uvs: Vec<Vec2>,
     /// Indices of corners.
     pub triangles: Triangles,
     /// Meanings of the surfaces that the triangles belong to, if an object specifies them.
@@ -44,6 +47,7 @@ impl Part {
         self.positions.clear();
         self.normals.clear();
         self.uvs.clear();
+        self.second_uvs.clear();
         self.triangles.clear();
         self.surfaces.clear();
     }
@@ -53,6 +57,7 @@ impl Part {
         self.positions.truncate(vertices);
         self.normals.truncate(vertices);
         self.uvs.truncate(vertices);
+        self.second_uvs.truncate(vertices);
         self.triangles.truncate(triangles);
         self.surfaces.truncate(triangles);
     }
@@ -64,6 +69,36 @@ impl Part {
         make_room(&mut self.normals, vertices);
         make_room(&mut self.uvs, vertices);
         self.triangles.make_room(triangles);
+    }
+
+    /// Returns the second texture coordinates (m) of a vertex; zero if it does not exist.
+    ///
+    /// ```
+    /// use burgeon_scene::Part;
+    /// use glam::Vec2;
+    ///
+    /// let mut part = Part { uvs: vec![Vec2::X, Vec2::Y], ..Part::default() };
+    /// part.second_uvs.push(Vec2::ONE);
+    /// assert_eq!((part.second_uv(0), part.second_uv(1)), (Vec2::ONE, Vec2::Y));
+    /// ```
+    #[inline]
+    pub fn second_uv(&self, vertex: usize) -> Vec2 {
+        self.second_uvs.get(vertex).or_else(|| self.uvs.get(vertex)).copied().unwrap_or_default()
+    }
+
+    /// Gives all vertices second texture coordinates, as many as there are `uvs`.
+    pub fn fill_second_uvs(&mut self) {
+        let filled = self.second_uvs.len().min(self.uvs.len());
+        self.second_uvs.extend_from_slice(&self.uvs[filled..]);
+    }
+
+    /// Adds the texture coordinates of another part, both sets.
+    pub fn extend_uvs(&mut self, from: &Self) {
+        if !from.second_uvs.is_empty() {
+            self.fill_second_uvs();
+            self.second_uvs.extend((0..from.uvs.len()).map(|vertex| from.second_uv(vertex)));
+        }
+        self.uvs.extend_from_slice(&from.uvs);
     }
 }
 
@@ -96,6 +131,9 @@ impl Part {
                         piece.positions.push(self.positions[from]);
                         piece.normals.push(self.normals[from]);
                         piece.uvs.push(self.uvs[from]);
+                        if !self.second_uvs.is_empty() {
+                            piece.second_uvs.push(self.second_uv(from));
+                        }
                         u32::try_from(piece.positions.len() - 1).unwrap_or(u32::MAX)
                     })
                 });

@@ -133,7 +133,10 @@ impl Shape {
         if made.is_empty() {
             return Err(Error::argument("the shape has no faces").help("give at least one face"));
         }
-        Ok(Self::of_mesh(crate::operations::weld(&PolygonMesh::new(mesh.points, made)), DMat3::IDENTITY))
+        Ok(Self::of_mesh(
+            crate::operations::weld(&PolygonMesh::new(mesh.points, made), crate::operations::SAME_POINT),
+            DMat3::IDENTITY,
+        ))
     }
 
     /// Creates a shape of the triangles of meshes, with coplanar ones joined; `None` without triangles.
@@ -153,7 +156,7 @@ impl Shape {
                     .map(|corners| PolygonFace::of(&corners.map(|corner| corner + base), &style)),
             );
         }
-        let welded = crate::operations::weld(&mesh);
+        let welded = crate::operations::weld(&mesh, crate::operations::SAME_POINT);
         if welded.faces.is_empty() {
             return Ok(None);
         }

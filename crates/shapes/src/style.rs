@@ -18,6 +18,8 @@ pub struct FaceStyle {
     pub material: Option<Arc<Material>>,
     /// Projection of texture coordinates; metres in the plane of the face if `None`.
     pub uv: Option<UvMap>,
+    /// Named projections besides `uv`, in alphabetical order: further sets of texture coordinates.
+    pub sets: Vec<(Arc<str>, UvMap)>,
     /// Largest angle (radians) to a neighbour across which the face is drawn smooth.
     pub smooth: Option<f64>,
 }
@@ -90,6 +92,27 @@ impl FaceStyle {
         let own = style.as_deref().cloned().unwrap_or_default();
         let smooth = (angle > 0.0).then_some(angle);
         Some(Arc::new(Self { smooth, ..own }))
+    }
+
+    /// Returns `style` with a projection of texture coordinates: the named set, or the first one if the name is empty.
+    pub fn with_projection(style: &SharedStyle, set: &Arc<str>, map: UvMap) -> SharedStyle {
+        let mut own = style.as_deref().cloned().unwrap_or_default();
+        match own.sets.binary_search_by(|(known, _)| known.cmp(set)) {
+            _ if set.is_empty() => own.uv = Some(map),
+            Ok(at) => own.sets[at].1 = map,
+            Err(at) => own.sets.insert(at, (Arc::clone(set), map)),
+        }
+        Some(Arc::new(own))
+    }
+
+    /// Returns the projection of a named set of texture coordinates.
+    pub fn set(&self, name: &str) -> Option<&UvMap> {
+        self.sets.iter().find_map(|(known, map)| (**known == *name).then_some(map))
+    }
+
+    /// Returns true if the faces have a projection.
+    pub fn is_projected(&self) -> bool {
+        self.uv.is_some() || !self.sets.is_empty()
     }
 
     /// Returns true if a tag matches `pattern`.

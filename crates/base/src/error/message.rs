@@ -121,10 +121,17 @@ impl Error {
         self
     }
 
-    /// Adds `what` as the subject before the message, unless the message already contains it.
+    /// Adds `what` as the subject before the message, unless the message already contains it. A method, such as "shape:roof",
+    /// replaces a method that is the subject already, so that a message names the one that was called.
     #[must_use]
     pub fn about(mut self, what: &str) -> Self {
         let what = without_passwords(what);
+        if is_method(&what)
+            && let Some((method, rest)) = self.0.message.split_once(": ")
+            && is_method(method)
+        {
+            self.0.message = rest.to_owned();
+        }
         if !self.0.message.contains(&*what) {
             self.0.message = format!("{}: {}", shorten(&what, LONGEST_NAME), self.0.message);
         }
@@ -439,6 +446,15 @@ pub fn shorten(text: &str, most: usize) -> Cow<'_, str> {
         }
         _ => Cow::Borrowed(text),
     }
+}
+
+/// Returns true for the name of a method, such as "shape:roof".
+fn is_method(text: &str) -> bool {
+    let is_name = |name: &str| {
+        name.starts_with(|first: char| first.is_ascii_lowercase())
+            && name.chars().all(|letter| letter.is_ascii_lowercase() || letter == '_')
+    };
+    text.split_once(':').is_some_and(|(kind, method)| is_name(kind) && is_name(method))
 }
 
 #[cfg(test)]

@@ -10,6 +10,8 @@ use burgeon_base::error::{Error, SourcePlace};
 pub struct Preset {
     /// Name of the preset.
     pub name: String,
+    /// Name of the preset of the same file whose seed and values this one extends.
+    pub extends: Option<String>,
     /// Seed of all random numbers, if the preset has one.
     pub seed: Option<u64>,
     /// Values by parameter name, in the order of the file.
@@ -24,6 +26,19 @@ impl Preset {
     /// Returns the values as text, in the format of [`ParamValues::set`](super::ParamValues::set).
     pub fn set(&self) -> Vec<(String, String)> {
         self.params.iter().map(|(name, value)| (name.clone(), value.plain())).collect()
+    }
+
+    /// Returns the preset with the seed and the values of `base` where it has none.
+    #[must_use]
+    pub fn over(mut self, base: &Self) -> Self {
+        self.seed = self.seed.or(base.seed);
+        for (index, (name, value)) in base.params.iter().enumerate() {
+            if self.params.iter().all(|(known, _)| known != name) {
+                self.params.push((name.clone(), value.clone()));
+                self.places.extend(base.places.get(index).or(base.place.as_ref()).cloned());
+            }
+        }
+        self
     }
 
     /// Returns the preset as a preset of `package`: names without prefix become parameters of that package.

@@ -72,6 +72,8 @@ pub(super) enum BodyArray<'a> {
     ByteNormals(&'a Part),
     ShortNormals(&'a Part),
     TexCoords(&'a Part, TexCoordMap),
+    /// Second texture coordinates of a part.
+    SecondTexCoords(&'a Part, TexCoordMap),
     /// Integers in place of an array of single-precision numbers.
     Integers(Box<BodyArray<'a>>, IntegerArray),
     /// Indices of a part as u16, with the number of triangles to write and the number of its first vertex.
@@ -403,7 +405,9 @@ impl BodyArray<'_> {
     fn length(&self) -> u64 {
         let bytes = match self {
             Self::Positions(part) | Self::Normals(part) => part.positions.len() * 12,
-            Self::TexCoords(part, _) | Self::ShortNormals(part) => part.positions.len() * 8,
+            Self::TexCoords(part, _) | Self::SecondTexCoords(part, _) | Self::ShortNormals(part) => {
+                part.positions.len() * 8
+            }
             Self::ByteNormals(part) => part.positions.len() * 4,
             Self::Integers(array, kind) => array.items() * kind.stride(),
             Self::Short(_, triangles, _) => triangles * 6,
@@ -433,7 +437,8 @@ impl BodyArray<'_> {
             | Self::Normals(part)
             | Self::ByteNormals(part)
             | Self::ShortNormals(part)
-            | Self::TexCoords(part, _) => part.positions.len(),
+            | Self::TexCoords(part, _)
+            | Self::SecondTexCoords(part, _) => part.positions.len(),
             Self::Short(part, ..) | Self::Long(part, _) => part.triangles.len(),
             Self::Places(welded) | Self::FaceNormals(welded) => welded.positions.len(),
             Self::ShortCorners(welded, _) | Self::LongCorners(welded) => welded.triangles.len(),
@@ -462,6 +467,7 @@ impl BodyArray<'_> {
             Self::ByteNormals(part) => put(out, part.normals[range].iter().map(|it| byte_normal(*it))),
             Self::ShortNormals(part) => put(out, part.normals[range].iter().map(|it| short_normal(*it))),
             Self::TexCoords(part, map) => put(out, part.uvs[range].iter().map(|uv| map.of(*uv))),
+            Self::SecondTexCoords(part, map) => put(out, range.map(|vertex| map.of(part.second_uv(vertex)))),
             Self::Integers(array, kind) => {
                 let mut floats = Vec::new();
                 array.write(items, &mut floats);

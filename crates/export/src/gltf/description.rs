@@ -98,6 +98,8 @@ pub(super) struct Attributes {
     pub(super) normals: Option<usize>,
     #[serde(rename = "TEXCOORD_0", skip_serializing_if = "Option::is_none")]
     pub(super) tex_coords: Option<usize>,
+    #[serde(rename = "TEXCOORD_1", skip_serializing_if = "Option::is_none")]
+    pub(super) second_tex_coords: Option<usize>,
     /// Feature numbers of vertices.
     #[serde(rename = "_FEATURE_ID_0", skip_serializing_if = "Option::is_none")]
     pub(super) features: Option<usize>,

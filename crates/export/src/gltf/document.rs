@@ -10,7 +10,7 @@ use super::material::Textures;
 use super::mesh::Arrays;
 use super::metadata::Metadata;
 use super::packing::MESHOPT;
-use super::quantize::{TEXTURE_TRANSFORM, tex_coord_ranges};
+use super::quantize::{TEXTURE_TRANSFORM, TexCoordRanges};
 use super::{InstancePlace, body, camera, film, material, mesh, place};
 use crate::check::{SceneCheck, check};
 use crate::decompose::{Y_UP_AXES, y_up};
@@ -91,7 +91,7 @@ pub(crate) fn packed_glb_for_viewer(
     stop: &Stop,
 ) -> Result<Vec<u8>> {
     let checked = check(scene)?;
-    let images = Images::load_with_normals(&checked)?;
+    let images = Images::load_all(&checked)?;
     let pictures: usize = images.files.iter().map(|file| file.bytes.len()).sum();
     let arrays = Arrays { small: true, ..Arrays::default() };
     let facts = SceneFacts::default();
@@ -107,7 +107,7 @@ pub(crate) fn packed_glb_for_viewer(
 
 fn bytes(scene: &Scene, arrays: Arrays, stop: &Stop) -> Result<(Vec<u8>, Layout)> {
     let checked = check(scene)?;
-    let images = Images::load_with_normals(&checked)?;
+    let images = Images::load_all(&checked)?;
     let document =
         Document::new(&checked, &SceneFacts::default(), &images, &Textures::Embedded, (arrays, None), stop)?;
     let mut bytes = Vec::new();
@@ -123,7 +123,7 @@ fn bytes(scene: &Scene, arrays: Arrays, stop: &Stop) -> Result<(Vec<u8>, Layout)
 pub(crate) fn write_glb(export: &Export<'_>, path: &Path, files: &mut Files) -> Result<()> {
     let expanded = expand_if_chosen(export)?;
     let checked = check(expanded.as_ref().unwrap_or(export.scene))?;
-    let images = Images::load_with_normals(&checked)?;
+    let images = Images::load_all(&checked)?;
     let stop = files.stop();
     let content = (Arrays::of(&export.facts), None);
     let mut document = Document::new(&checked, &export.facts, &images, &Textures::Embedded, content, &stop)?;
@@ -149,7 +149,7 @@ pub(crate) fn write_film(
     files: &mut Files,
 ) -> Result<()> {
     let checked = check(&model.scene)?;
-    let images = Images::load_with_normals(&checked)?;
+    let images = Images::load_all(&checked)?;
     let stop = files.stop();
     let content = (Arrays::default(), Some((model, Some(settings))));
     let facts = SceneFacts::default();
@@ -165,7 +165,7 @@ pub(crate) fn write_levels(
     files: &mut Files,
 ) -> Result<()> {
     let checked = check(&model.scene)?;
-    let images = Images::load_with_normals(&checked)?;
+    let images = Images::load_all(&checked)?;
     let stop = files.stop();
     let content = (Arrays::of(facts), Some((model, None)));
     let mut document = Document::new(&checked, facts, &images, &Textures::Embedded, content, &stop)?;
@@ -181,7 +181,7 @@ pub(crate) fn write_levels(
 pub(crate) fn write_gltf(export: &Export<'_>, path: &Path, files: &mut Files) -> Result<()> {
     let expanded = expand_if_chosen(export)?;
     let checked = check(expanded.as_ref().unwrap_or(export.scene))?;
-    let images = Images::load_with_normals(&checked)?;
+    let images = Images::load_all(&checked)?;
     let names = images.copy_names(path, files);
     for (name, file) in names.iter().zip(&images.files) {
         files.copy(&path.with_file_name(name), &file.bytes)?;
@@ -247,13 +247,14 @@ impl<'a> Document<'a> {
             metadata.use_extensions(&mut description.root);
         }
         let metadata = metadata.as_ref();
-        let ranges = if arrays.quantized { tex_coord_ranges(checked) } else { Vec::new() };
+        let ranges =
+            if arrays.quantized { TexCoordRanges::measure(checked) } else { TexCoordRanges::default() };
         let materials = material::write(checked, images, textures, &ranges, &mut description.root, &mut body);
         // The viewer reads the extension, and so does what plays films.
         let is_own = arrays.small || film.is_some_and(|(_, settings)| settings.is_some());
         let storage = if is_own { InstanceStorage::Extension } else { facts.instances };
         let costs = place::integer_costs(checked.scene, storage);
-        let arrays_of = (arrays, ranges.as_slice(), costs.as_slice());
+        let arrays_of = (arrays, &ranges, costs.as_slice());
         let (meshes, grids) =
             mesh::write(checked, metadata, arrays_of, &materials, &mut description, &mut body, stop);
         stop.check()?;

@@ -85,7 +85,7 @@ fn merge(mesh: &Mesh, instance: &Instance, origin: DVec3, merged: &mut Mesh) {
             let turned = turned * normal.vector().as_dvec3();
             burgeon_scene::Normal::from(turned.try_normalize().unwrap_or(DVec3::Z))
         }));
-        into.uvs.extend_from_slice(&part.uvs);
+        into.extend_uvs(part);
         for (index, [a, b, c]) in part.triangles.iter().enumerate() {
             into.surfaces.mark(into.triangles.len(), part.surfaces.of(index));
             let corners = if mirrored { [a, c, b] } else { [a, b, c] };

@@ -6,7 +6,7 @@ use super::super::texture::Images;
 use super::body::{Body, BodyArray};
 use super::coordinates::TexCoordRange;
 use super::description::use_extension;
-use super::quantize::TEXTURE_TRANSFORM;
+use super::quantize::{TEXTURE_TRANSFORM, TexCoordRanges};
 use crate::uri;
 use burgeon_scene::{Material, NormalMap};
 use gltf_json as json;
@@ -27,7 +27,7 @@ pub(super) fn write<'a>(
     checked: &SceneCheck<'_>,
     images: &'a Images,
     textures: &Textures,
-    ranges: &[Option<TexCoordRange>],
+    ranges: &TexCoordRanges,
     root: &mut json::Root,
     body: &mut Body<'a>,
 ) -> Vec<Option<json::Index<json::Material>>> {
@@ -36,13 +36,14 @@ pub(super) fn write<'a>(
     materials
         .map(|(i, material)| {
             let file = images.of_material[i];
-            let range = ranges.get(i).copied().flatten();
+            let [range, second] = ranges.of(i);
             let texture = file.map(|file| texture(written[file], range, root));
             let normal = images.normals[i].zip(material.normal_map.as_ref());
             let normal = normal.map(|(file, map)| normal_texture(written[file], map, range, root));
+            let dirt = images.dirt[i].map(|file| dirt_texture(written[file], second, root));
             let has_alpha = file.is_some_and(|file| images.files[file].has_alpha);
             checked.materials[i].then(|| {
-                let described = describe(material, (texture, normal), has_alpha, root);
+                let described = describe(material, (texture, normal, dirt), has_alpha, root);
                 root.push(described)
             })
         })
@@ -87,7 +88,11 @@ fn write_images<'a>(
 
 fn describe(
     material: &Material,
-    (texture, normal): (Option<Info>, Option<json::material::NormalTexture>),
+    (texture, normal, dirt): (
+        Option<Info>,
+        Option<json::material::NormalTexture>,
+        Option<json::material::OcclusionTexture>,
+    ),
     has_alpha: bool,
     root: &mut json::Root,
 ) -> json::Material {
@@ -111,6 +116,7 @@ fn describe(
             ..PbrMetallicRoughness::default()
         },
         normal_texture: normal,
+        occlusion_texture: dirt,
         emissive_factor: EmissiveFactor(emissive),
         extensions: strength.map(|strength| {
             let extension = "KHR_materials_emissive_strength";
@@ -141,6 +147,19 @@ fn normal_texture(
         transform(range, root).map(|others| json::extensions::material::NormalTexture { others });
     let scale = if map.scale.is_finite() { map.scale } else { 1.0 };
     json::material::NormalTexture { index, scale, tex_coord: 0, extensions, extras: None }
+}
+
+/// Returns the reference to a dirt map with the second set of coordinates, which are fractions of `range`. glTF has one texture
+/// that multiplies light in addition to that of the base colour: occlusion, by the red channel.
+fn dirt_texture(
+    index: json::Index<json::Texture>,
+    range: Option<TexCoordRange>,
+    root: &mut json::Root,
+) -> json::material::OcclusionTexture {
+    let extensions =
+        transform(range, root).map(|others| json::extensions::material::OcclusionTexture { others });
+    let strength = StrengthFactor(1.0);
+    json::material::OcclusionTexture { strength, index, tex_coord: 1, extensions, extras: None }
 }
 
 /// Returns the extension that maps texture coordinates to `range`, if they are fractions of one.

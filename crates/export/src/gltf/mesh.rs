@@ -3,11 +3,11 @@
 use super::super::check::{PartExtent, SceneCheck};
 use super::attribute::{AttributeType, with_extremes};
 use super::body::{ArrayKind, Body, BodyArray};
-use super::coordinates::{TexCoordMap, TexCoordRange, y_up};
+use super::coordinates::{TexCoordMap, y_up};
 use super::corners::{self, CornerRange, FaceChoice, FaceCorners, PartFaces, flat_faces};
 use super::description::{Accessor, Attributes, Description, MeshDescription, Primitive, ShadingExtras};
 use super::metadata::{FeaturePlace, Metadata};
-use super::quantize::{PositionGrid, round_together};
+use super::quantize::{PositionGrid, TexCoordRanges, round_together};
 use super::weld::FlatPart;
 use crate::SceneFacts;
 use burgeon_base::stop::Stop;
@@ -28,7 +28,7 @@ pub(super) type WrittenMeshes = (Vec<Option<usize>>, Vec<Option<PositionGrid>>);
 pub(super) fn write<'a>(
     checked: &SceneCheck<'a>,
     metadata: Option<&Metadata>,
-    (arrays, ranges, costs): (Arrays, &[Option<TexCoordRange>], &[usize]),
+    (arrays, ranges, costs): (Arrays, &TexCoordRanges, &[usize]),
     materials: &[Option<json::Index<json::Material>>],
     description: &mut Description<'a>,
     body: &mut Body<'a>,
@@ -39,9 +39,12 @@ pub(super) fn write<'a>(
         let image_size = scene.materials[part.material].image_size();
         let size = image_size.or(arrays.measured.then_some([1.0, 1.0]));
         let welded = (arrays.small && size.is_none()).then(|| FlatPart::of(part)).flatten().map(Arc::new);
-        let range = ranges.get(part.material).copied().flatten();
+        let [range, second_range] = ranges.of(part.material);
         let texture = size.map(|size| TexCoordMap { range, ..TexCoordMap::exact(size) });
-        PartView { part, texture, measured: *measured, welded, which: None, corners: None }
+        let dirt = scene.materials[part.material].dirt_map.as_ref();
+        let second =
+            dirt.map(|dirt| TexCoordMap { range: second_range, ..TexCoordMap::exact(dirt.image.size) });
+        PartView { part, texture, second, measured: *measured, welded, which: None, corners: None }
     };
     let shown = scene.meshes.par_iter().zip(&checked.parts).map(|(mesh, parts)| {
         let is_shown = |(_, measured): &(&Part, &PartExtent)| measured.triangles > 0;
@@ -52,6 +55,7 @@ pub(super) fn write<'a>(
                 let mut shown: Vec<_> = mesh.parts.iter().zip(parts).filter(is_shown).map(measure).collect();
                 if arrays.quantized {
                     round_together(shown.iter_mut().filter_map(|shown| shown.texture.as_mut()));
+                    round_together(shown.iter_mut().filter_map(|shown| shown.second.as_mut()));
                 }
                 divide(shown)
             }
@@ -131,6 +135,8 @@ impl Arrays {
 struct PartView<'a> {
     part: &'a Part,
     texture: Option<TexCoordMap>,
+    /// Map of its second texture coordinates, if its material has a dirt map.
+    second: Option<TexCoordMap>,
     measured: PartExtent,
     /// Welded part that is written instead.
     welded: Option<Arc<FlatPart>>,
@@ -146,7 +152,8 @@ fn divide(parts: Vec<PartView<'_>>) -> Vec<PartView<'_>> {
     for shown in parts {
         let (part, all) = (shown.part, shown.measured.triangles);
         let flat = if part.positions.len() <= corners::MOST { flat_faces(part) } else { 0 };
-        if 2 * flat < all {
+        // Corners have one set of texture coordinates.
+        if 2 * flat < all || shown.second.is_some() {
             divided.push(shown);
             continue;
         }
@@ -155,6 +162,7 @@ fn divide(parts: Vec<PartView<'_>>) -> Vec<PartView<'_>> {
             PartView {
                 part,
                 texture: shown.texture,
+                second: None,
                 measured,
                 welded: None,
                 which: Some(which),
@@ -232,9 +240,12 @@ impl Vertices {
             });
             *found = known[place].1[usize::from(shown.texture.is_some())];
         }
-        for kind in [(false, false), (false, true), (true, false)] {
+        const KINDS: [[bool; 3]; 4] =
+            [[false, false, false], [false, true, false], [true, false, false], [true, false, true]];
+        for kind in KINDS {
             let is_alike = |shown: &PartView<'_>| {
-                shown.corners.is_none() && (shown.texture.is_some(), shown.welded.is_some()) == kind
+                let own = [shown.texture.is_some(), shown.welded.is_some(), shown.second.is_some()];
+                shown.corners.is_none() && own == kind
             };
             let alike: Vec<usize> = (0..parts.len()).filter(|index| is_alike(&parts[*index])).collect();
             let sum: usize = alike.iter().map(|index| parts[*index].vertices()).sum();
@@ -293,7 +304,8 @@ impl Vertices {
                     let place = tex_coord.share(BodyArray::CornerTexCoords(Arc::clone(corners)), body);
                     description.accessor(tex_coord.accessor(place, count))
                 });
-                let accessors = Attributes { positions, normals, tex_coords, features: None };
+                let accessors =
+                    Attributes { positions, normals, tex_coords, second_tex_coords: None, features: None };
                 Self { accessors, first: 0, count }
             })
         })
@@ -342,11 +354,21 @@ impl Vertices {
                 BodyArray::TexCoords(shown.part, shown.texture.unwrap_or(TexCoordMap::exact([1.0, 1.0])))
             })
         });
+        let are_rounded = parts.iter().filter_map(|shown| shown.second).all(|map| map.is_rounded);
+        let (.., second) = AttributeType::all(arrays.quantized, grid, are_rounded);
+        let has_second = parts.first().is_some_and(|shown| shown.second.is_some());
+        let second = has_second.then(|| {
+            add(second, &|shown| {
+                let map = shown.second.unwrap_or(TexCoordMap::exact([1.0, 1.0]));
+                BodyArray::SecondTexCoords(shown.part, map)
+            })
+        });
         let positions = with_extremes(positions, (low, high), grid);
         let accessors = Attributes {
             positions: description.accessor(positions),
             normals: Some(description.accessor(normals)),
             tex_coords: tex_coords.map(|accessor| description.accessor(accessor)),
+            second_tex_coords: second.map(|accessor| description.accessor(accessor)),
             features: None,
         };
         Self { accessors, first: 0, count }

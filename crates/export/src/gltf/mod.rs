@@ -27,6 +27,8 @@ mod quantize;
 #[cfg(test)]
 mod quantize_tests;
 #[cfg(test)]
+mod second_set_tests;
+#[cfg(test)]
 mod tests;
 mod tile;
 mod weld;

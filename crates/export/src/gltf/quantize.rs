@@ -7,7 +7,7 @@
 use super::super::check::{PartExtent, SceneCheck, triangles};
 use super::coordinates::{TexCoordMap, TexCoordRange, tex_coord, y_up};
 use burgeon_scene::Part;
-use glam::{DAffine3, DVec3, Vec3};
+use glam::{DAffine3, DVec3, Vec2, Vec3};
 use rayon::prelude::*;
 
 /// Extension that moves and scales texture coordinates.
@@ -118,18 +118,47 @@ pub(super) fn round_to_step(coordinate: f32) -> f32 {
     (f64::from(integer(coordinate)) / MOST) as f32
 }
 
-/// Returns the range of the texture coordinates of each material of a scene; `None` without a texture, and if the range is
-/// too large for integers.
-pub(super) fn tex_coord_ranges(checked: &SceneCheck<'_>) -> Vec<Option<TexCoordRange>> {
+/// Ranges of the texture coordinates of the materials of a scene, of the first and of the second set. A range is `None` without
+/// an image, and if it is too large for integers.
+#[derive(Debug, Default)]
+pub(super) struct TexCoordRanges {
+    first: Vec<Option<TexCoordRange>>,
+    /// Empty if no material has a dirt map.
+    second: Vec<Option<TexCoordRange>>,
+}
+
+impl TexCoordRanges {
+    /// Measures the ranges of a scene.
+    pub(super) fn measure(checked: &SceneCheck<'_>) -> Self {
+        let materials = &checked.scene.materials;
+        let size = |part: &Part| materials[part.material].image_size();
+        let first = ranges(checked, size, |part, vertex| part.uvs[vertex]);
+        let size = |part: &Part| materials[part.material].dirt_map.as_ref().map(|dirt| dirt.image.size);
+        let has_second = materials.iter().any(|material| material.dirt_map.is_some());
+        let second = if has_second { ranges(checked, size, Part::second_uv) } else { Vec::new() };
+        Self { first, second }
+    }
+
+    /// Returns the ranges of both sets of a material.
+    pub(super) fn of(&self, material: usize) -> [Option<TexCoordRange>; 2] {
+        [&self.first, &self.second].map(|ranges| ranges.get(material).copied().flatten())
+    }
+}
+
+/// Returns the range of the coordinates `uv` of each material, whose image has this `size` (m).
+fn ranges(
+    checked: &SceneCheck<'_>,
+    size: impl Fn(&Part) -> Option<[f64; 2]> + Sync,
+    uv: impl Fn(&Part, usize) -> Vec2 + Sync,
+) -> Vec<Option<TexCoordRange>> {
     let scene = checked.scene;
-    let size = |part: &Part| scene.materials[part.material].image_size();
     let parts = scene.meshes.par_iter().zip(&checked.parts).flat_map_iter(|(mesh, extents)| {
         mesh.parts.iter().zip(extents).filter(|(_, extent)| extent.triangles > 0).map(|(part, _)| part)
     });
     let measured: Vec<(usize, [[f32; 2]; 2])> = parts
         .filter_map(|part| {
             let size = size(part)?;
-            let used = triangles(part).flatten().map(|corner| tex_coord(part.uvs[corner as usize], size));
+            let used = triangles(part).flatten().map(|corner| tex_coord(uv(part, corner as usize), size));
             let bounds = used.fold([[f32::INFINITY; 2], [f32::NEG_INFINITY; 2]], |[low, high], uv| {
                 [[low[0].min(uv[0]), low[1].min(uv[1])], [high[0].max(uv[0]), high[1].max(uv[1])]]
             });

@@ -7,7 +7,7 @@ use std::path::Path;
 use super::super::check::{SceneCheck, check, shown_parts};
 use super::super::decompose::{Steps, decompose, y_up};
 use super::super::files::Files;
-use super::super::texture::Images;
+use super::super::texture::{Images, dirt_warning};
 use super::super::{Export, stem, uri};
 use super::shape::{self, LookReference, Looks, numbers, title, write_feature};
 use crate::xml::{escape_list_item, identifier};
@@ -70,6 +70,7 @@ pub(crate) fn write(export: &Export<'_>, path: &Path, files: &mut Files) -> Resu
     let Export { scene, facts, .. } = export;
     let checked = check(scene)?;
     files.warn(relief_warning(&checked, path));
+    files.warn(dirt_warning(&checked, path));
     let images = Images::load(&checked)?;
     let names = images.copy_names(path, files);
     for (name, file) in names.iter().zip(&images.files) {

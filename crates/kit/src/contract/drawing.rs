@@ -147,6 +147,7 @@ impl Drawing {
                 emissive,
                 texture,
                 normal_map,
+                dirt_map,
                 double_sided,
             } = known;
             *base_color == color
@@ -157,6 +158,7 @@ impl Drawing {
                 && *name == material.name
                 && *texture == material.texture
                 && *normal_map == material.normal_map
+                && *dirt_map == material.dirt_map
         };
         match self.materials.iter().position(is_wanted) {
             Some(index) => index,
@@ -240,7 +242,7 @@ impl Drawing {
                 into.normals.extend(
                     part.normals.iter().map(|normal| Normal::from(turned * normal.vector().as_dvec3())),
                 );
-                into.uvs.extend_from_slice(&part.uvs);
+                into.extend_uvs(part);
                 into.triangles.extend(part.triangles.iter().map(|corners| {
                     let [a, b, c] = corners.map(|corner| corner + base);
                     if mirrored { [a, c, b] } else { [a, b, c] }

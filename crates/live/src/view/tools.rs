@@ -50,14 +50,14 @@ fn all_names(state: &ServerState, own: &Presets) -> Vec<String> {
 
 /// Returns the preset with the name `name` in pages, of the script or of a package.
 fn find(state: &ServerState, own: &Presets, name: &str) -> Result<Preset> {
-    let Some((package, inner)) = of_package(name) else { return own.get(name).cloned() };
+    let Some((package, inner)) = of_package(name) else { return own.get(name) };
     let of_packages = state.package_presets.lock().recover();
     let Some((_, path)) = of_packages.iter().find(|(known, _)| known == package) else {
         let known = of_packages.iter().map(|(known, _)| known.as_str());
         let message = format!("no package named `{package}` has presets");
         return Err(Error::not_found("package", package, known, message));
     };
-    let preset = Presets::read_file(path)?.into_preset(inner)?.of_package(package);
+    let preset = Presets::read_file(path)?.get(inner)?.of_package(package);
     Ok(Preset { name: name.to_owned(), ..preset })
 }
 

@@ -7,3 +7,7 @@ print(column:is_solid(), wall:area())
 -- The image shows two windows side by side: half a tile each.
 local windows = rectangle(8, 3):project(4, 3):split("u", { "0.5*" })
 print(#windows, windows[1]:size())
+
+-- Dirt lies over the whole wall by a set of its own, and its parts keep it.
+local stained = wall:project(5, 3, { set = "stain" })
+print(#stained:split("x", { "~1*" }))

@@ -60,6 +60,7 @@ pub(super) fn materials(
                 emissive: light(described),
                 texture: None,
                 normal_map: None,
+                dirt_map: None,
                 double_sided: described.double_sided,
             },
             set: 0,

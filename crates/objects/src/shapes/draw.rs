@@ -52,7 +52,7 @@ pub(crate) fn draw_building(
 /// Draws the faces of a shape at `transform`. Texture coordinates are metres in the plane of each face, x to the right seen
 /// from outside and y upwards, unless a projection gives others.
 ///
-/// Returns a warning if the shape draws nothing.
+/// Returns a warning if the shape draws nothing, or if a face lacks the set of texture coordinates that its dirt map uses.
 pub(crate) fn draw_shape(
     to: ShapeTarget<'_>,
     transform: &DAffine3,
@@ -82,10 +82,11 @@ fn draw(
         )
         .help("draw it near the origin: look for an offset or a size that grows"));
     }
-    let mut parts = StyledParts { to, last: None };
+    let mut parts = StyledParts { to, last: None, without_set: None };
     // Most shapes of a facade are rectangles and boxes, which need no mesh.
     let is_plain = |style: &SharedStyle| {
-        style.as_deref().is_none_or(|style| style.uv.is_none() && style.smooth.is_none())
+        parts.dirt_set(style).is_none()
+            && style.as_deref().is_none_or(|style| !style.is_projected() && style.smooth.is_none())
     };
     if let Some(quads) = shape.body.quads(&shape.scope)
         && quads.clone().all(|(_, style)| is_plain(style))
@@ -103,8 +104,18 @@ fn draw(
             Stop::check_current()?;
         }
         let tile = parts.tile(&face.style);
+        let dirt = parts.dirt_set(&face.style);
         let part = parts.part(&face.style, meaning(&face.style));
-        draw_face(part, (&mesh, number), transform, tile, smooth.as_ref())?;
+        let has_set = draw_face(part, (&mesh, number), transform, (tile, dirt.as_ref()), smooth.as_ref())?;
+        if !has_set {
+            parts.without_set = parts.without_set.or(dirt);
+        }
+    }
+    if let Some((set, _)) = parts.without_set {
+        let text = format!("a face has no set {set:?}, which the dirt map of its material uses");
+        let help =
+            format!("give its shape the set: shape:project(8, 4, {{ set = {set:?} }}), or omit dirt_set");
+        return Ok(Some(Warning::new(WarningKind::NoEffect, text).help(help)));
     }
     Ok(None)
 }
@@ -117,7 +128,12 @@ struct StyledParts<'a> {
     to: ShapeTarget<'a>,
     /// Look of the last face, and the index of its part: faces of the same look often follow each other.
     last: Option<(FaceLook, usize)>,
+    /// Set of the dirt map of a face that has no such set.
+    without_set: Option<DirtSet>,
 }
+
+/// Name of the set of texture coordinates of a dirt map, and the size (m) of its image.
+type DirtSet = (Arc<str>, DVec2);
 
 impl StyledParts<'_> {
     /// Returns the part for a face with this style, and marks its surface with the meaning.
@@ -144,8 +160,19 @@ impl StyledParts<'_> {
 
     /// Returns the size (m) of a repetition of the image on a face with this style.
     fn tile(&self, style: &SharedStyle) -> DVec2 {
+        self.material(style).image_size().map_or(DVec2::ONE, DVec2::from)
+    }
+
+    /// Returns the set that the dirt map of a face with this style names.
+    fn dirt_set(&self, style: &SharedStyle) -> Option<DirtSet> {
+        let dirt = self.material(style).dirt_map.as_ref().filter(|dirt| !dirt.set.is_empty())?;
+        Some((Arc::clone(&dirt.set), DVec2::from(dirt.image.size)))
+    }
+
+    /// Returns the material of a face with this style.
+    fn material<'a>(&'a self, style: &'a SharedStyle) -> &'a Material {
         let own = style.as_deref().and_then(|style| style.material.as_deref());
-        own.unwrap_or(self.to.base).image_size().map_or(DVec2::ONE, DVec2::from)
+        own.unwrap_or(self.to.base)
     }
 }
 
@@ -167,19 +194,20 @@ fn draw_quad(part: &mut Part, corners: [DVec3; 4]) -> Result<()> {
     Ok(())
 }
 
-/// Adds the triangles of a face.
+/// Adds the triangles of a face, with the coordinates of the set that its dirt map names. Returns false if the face has no such
+/// set.
 fn draw_face(
     part: &mut Part,
     (mesh, number): (&PolygonMesh, usize),
     transform: &DAffine3,
-    tile: DVec2,
+    (tile, dirt): (DVec2, Option<&DirtSet>),
     smooth: Option<&SmoothNormals>,
-) -> Result<()> {
+) -> Result<bool> {
     let face = &mesh.faces[number];
     let own = mesh.normal(face);
     let normal = transform.transform_vector3(own).normalize_or_zero();
     if normal == DVec3::ZERO {
-        return Ok(());
+        return Ok(true);
     }
     let axes = Scope::face_axes(normal, DMat3::IDENTITY);
     let map = face.style.as_deref().and_then(|style| style.uv).filter(|map| map.shows(own));
@@ -187,6 +215,11 @@ fn draw_face(
     let base = first_vertex(part, count)?;
     let triangles = mesh.corner_triangles(face)?;
     part.make_room(count, triangles.len());
+    if dirt.is_some() {
+        part.fill_second_uvs();
+    }
+    let set = dirt.and_then(|(name, size)| Some((face.style.as_deref()?.set(name)?, *size)));
+    let second = set.filter(|(map, _)| map.shows(own));
     for point in face.rings.iter().flatten() {
         let at = transform.transform_point3(mesh.at(*point));
         let turned = smooth.and_then(|smooth| smooth.at(mesh, number, *point));
@@ -194,11 +227,15 @@ fn draw_face(
         // Coordinates of a scene are metres on the image at its real size.
         let uv = map.map_or_else(|| in_plane(at, &axes), |map| map.at(mesh.at(*point)) * tile);
         add_vertex(part, at, turned, uv);
+        if dirt.is_some() {
+            let uv = second.map_or(uv, |(map, size)| map.at(mesh.at(*point)) * size);
+            part.second_uvs.push(uv.as_vec2());
+        }
     }
     for corners in triangles {
         add_triangle(part, corners.map(|corner| base + corner));
     }
-    Ok(())
+    Ok(dirt.is_none() || set.is_some())
 }
 
 /// Returns the number of the next vertex; fails if a mesh cannot hold `count` more.

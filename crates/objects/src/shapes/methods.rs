@@ -198,6 +198,7 @@ impl ShapeObject {
     /// Returns the shape with the image of its material projected onto its faces: tiles of `width` (m) and `height` (m) along x
     /// and y of the scope, from its corner; "~2" stands for whole tiles of about 2 m. Cuts and movements keep the
     /// image in its place on the faces. Faces along the direction of projection keep tiles of the size of the material.
+    /// { set = "dirt" } is a second set of coordinates, for the dirt map of a material that names it.
     pub fn project(
         &self,
         width: TileLength,

@@ -14,6 +14,8 @@ use crate::CurveObject;
 
 /// Maximum number of segments of a piece of a curve.
 const MOST_SEGMENTS: f64 = 256.0;
+/// Maximum twist (degrees) between neighbouring points without a warning.
+const MOST_TWIST: f64 = 90.0;
 
 /// Path of a sweep: a list of positions (m), a curve, or an edge.
 #[derive(Clone)]
@@ -100,19 +102,43 @@ impl ShapeObject {
             let numbers: Vec<String> =
                 crossing.iter().take(5).map(|number| format!("{}", number + 1)).collect();
             let (count, what) = (crossing.len(), listed(numbers.iter().map(String::as_str)));
-            let which = if count > numbers.len() {
-                format!("{count} segments, first {what},")
-            } else {
-                format!("segment {what}")
+            let which = match count {
+                1 => format!("segment {what} of the path is"),
+                _ if count > numbers.len() => format!("{count} segments of the path, first {what}, are"),
+                _ => format!("segments {what} of the path are"),
             };
             warn(
                 "sweep",
-                &format!("{which} of the path is too short for its joints, so the solid crosses itself"),
+                &format!(
+                    "{which} too short for {}, so the solid crosses itself{}",
+                    if count == 1 { "its joints" } else { "their joints" },
+                    tightest(&path)
+                ),
                 "use a narrower profile, or a path that turns less sharply",
+            );
+        }
+        #[allow(clippy::cast_precision_loss, reason = "a path has fewer than 2^52 points")]
+        let turn = options.twist.abs() / (path.points.len().max(2) - 1) as f64;
+        if turn > MOST_TWIST {
+            let text = format!(
+                "the profile twists by about {turn:.0} degrees from one point of the path to the next"
+            );
+            warn(
+                "sweep",
+                &text,
+                "add points to the path, so that it twists by at most 90 degrees between them",
             );
         }
         Ok(self.with_shape(solid))
     }
+}
+
+/// Returns the end of a sentence that names the tightest turn of a path.
+fn tightest(path: &SweepPath) -> String {
+    path.tightest_turn().map_or_else(String::new, |(at, radius)| {
+        let digits = if radius < 1.0 { 3 } else { 2 };
+        format!("; its tightest turn, at point {}, has a radius of {radius:.digits$} m", at + 1)
+    })
 }
 
 /// Returns points (m) of a curve so that its direction turns by at most about `step` (radians) from one segment to the next.

@@ -45,6 +45,12 @@ pub(super) fn text(given: &[Value]) -> Result<Value> {
         }
     };
     let words = String::read_value(letters).map_err(|error| error.refuse("text", "letters", letters))?;
+    if let Some(place) = words.chars().position(|letter| letter == char::REPLACEMENT_CHARACTER) {
+        let message =
+            format!("text: character {} of the text is no letter: its bytes are not UTF-8", place + 1);
+        return Err(Error::argument(message)
+            .help("save the script or the data as UTF-8, and take parts of a text with utf8.offset"));
+    }
     let options = match options {
         None => TextOptions::default(),
         Some(table) => {

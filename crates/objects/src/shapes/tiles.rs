@@ -65,6 +65,8 @@ pub struct ProjectOptions {
     /// Rotation of the image (degrees), counter-clockwise.
     #[default(0.0)]
     pub angle: f64,
+    /// Name of the set of texture coordinates, which the field dirt_set of a material names; the set of the texture if omitted.
+    pub set: Option<String>,
 }
 
 impl ShapeObject {
@@ -91,6 +93,11 @@ impl ShapeObject {
         let scope: &Scope = &self.shape.scope;
         let tile = DVec2::new(width.on(scope.size[axes[0]]), height.on(scope.size[axes[1]]));
         let map = UvMap { offset: DVec2::new(u, v), ..UvMap::of_plane(scope, axes, tile) };
-        Ok(self.with_shape(self.shape.project(map.rotate(options.angle.to_radians()))))
+        if options.set.as_ref().is_some_and(String::is_empty) {
+            return Err(Error::argument("shape:project: the name of the set is empty")
+                .help("give a name, such as \"dirt\", or omit set to place the texture"));
+        }
+        let set = options.set.as_deref().unwrap_or_default().into();
+        Ok(self.with_shape(self.shape.project_set(&set, map.rotate(options.angle.to_radians()))))
     }
 }

@@ -251,9 +251,13 @@ impl Light<'_> {
         let material = &self.stage.materials[number];
         let [red, green, blue, _] = material.base_color;
         let mut base = Vec3::new(red, green, blue);
-        if let Some(texture) = self.images.get(number).and_then(|images| images.texture.as_ref()) {
+        if let Some(images) = self.images.get(number) {
             let size = footprint / self.stage.shrink.matrix3.x_axis.length() as f32;
-            base *= texture.color(point.uv, Vec2::X * size, Vec2::Y * size);
+            for (image, uv) in [(&images.texture, point.uv), (&images.dirt, point.second_uv)] {
+                if let Some(image) = image {
+                    base *= image.color(uv, Vec2::X * size, Vec2::Y * size);
+                }
+            }
         }
         let lifted = point.position + point.normal * self.sky.lift;
         let step = self.sky.maps.len().div_ceil(MIRROR_MAPS).max(1);

@@ -130,7 +130,7 @@ impl<'a> SeenPoint<'a> {
 
     /// Returns the point with the colour of its texture and the slope of its normal map, on the smooth surface.
     pub(super) fn finish(self, camera: &Camera) -> SurfacePoint {
-        let mut surface = self.surface;
+        let mut surface = self.surface.clone();
         let (part, StageTriangle { a, ab, ac, .. }) = (self.draw.part, self.triangle);
         let side = if surface.plane.dot(self.triangle.cross) < 0.0 { -1.0 } else { 1.0 };
         let side = if self.draw.mirrored { -side } else { side };
@@ -144,18 +144,15 @@ impl<'a> SeenPoint<'a> {
             surface.behind =
                 round_position(surface.position, corners, normals.map(|normal| -normal), weights);
         }
+        if let Some(dirt) = &self.images.dirt {
+            let ([at, across, along], _) = self.footprint(camera, |i| part.second_uv(i));
+            surface.base *= dirt.color(at, across, along);
+        }
         if self.images.texture.is_none() && self.images.normals.is_none() {
             return surface;
         }
-        let [origin, u, v] = {
-            let [a, b, c] = self.corners.map(|i| part.uvs.get(i).copied().unwrap_or_default());
-            [a, b - a, c - a]
-        };
-        let uv = |weights: Vec2| origin + u * weights.x + v * weights.y;
-        let [x, y] = self.place;
-        let beside = |right: f32, down: f32| uv(self.triangle.weights(camera.ray(x + right, y + down)));
-        let here = uv(self.exact);
-        let (at, across, along) = (uv(self.inside), beside(1.0, 0.0) - here, beside(0.0, 1.0) - here);
+        let ([at, across, along], [u, v]) =
+            self.footprint(camera, |i| part.uvs.get(i).copied().unwrap_or_default());
         if let Some(texture) = &self.images.texture {
             surface.base *= texture.color(at, across, along);
         }
@@ -166,6 +163,20 @@ impl<'a> SeenPoint<'a> {
             surface.normal = bend(lean(surface.normal, slope, [ab, ac], [u, v]), surface.view);
         }
         surface
+    }
+
+    /// Returns the texture coordinates (m) of the point and the sides of the pixel in them, and the increase of the coordinates
+    /// along two edges of the triangle. `uv` returns those of a vertex.
+    fn footprint(&self, camera: &Camera, uv: impl Fn(usize) -> Vec2) -> ([Vec2; 3], [Vec2; 2]) {
+        let [origin, u, v] = {
+            let [a, b, c] = self.corners.map(uv);
+            [a, b - a, c - a]
+        };
+        let uv = |weights: Vec2| origin + u * weights.x + v * weights.y;
+        let [x, y] = self.place;
+        let beside = |right: f32, down: f32| uv(self.triangle.weights(camera.ray(x + right, y + down)));
+        let here = uv(self.exact);
+        ([uv(self.inside), beside(1.0, 0.0) - here, beside(0.0, 1.0) - here], [u, v])
     }
 }
 

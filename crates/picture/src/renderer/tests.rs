@@ -5,8 +5,8 @@ use super::{render, render_within};
 use crate::{Background, CameraChoice, Picture, Quality, SunPosition};
 use burgeon_base::stop::Stop;
 use burgeon_scene::image::Image;
-use burgeon_scene::{CameraView, Material, NormalMap, Part, Scene, Texture, Upright};
-use glam::{DAffine3, DVec3, Vec3};
+use burgeon_scene::{CameraView, DirtMap, Material, NormalMap, Part, Scene, Texture, Upright};
+use glam::{DAffine3, DVec3, Vec2, Vec3};
 
 /// Returns the settings of a small render from the south-east with a transparent background and without a ground.
 pub(super) fn small() -> Picture {
@@ -158,6 +158,39 @@ fn a_normal_map_is_lighter_where_it_leans_to_the_sun() {
         assert!((light(Some(1.0), true, sun) - flat) * to_sun < -12, "the map is turned around");
         assert!((light(Some(0.0), false, sun) - flat).abs() <= 1, "the map is flat");
     }
+}
+
+#[test]
+fn a_dirt_map_lies_by_its_own_set_and_multiplies_the_texture() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("halves.png");
+    image::RgbImage::from_fn(64, 4, |x, _| image::Rgb([if x < 32 { 20 } else { 255 }; 3]))
+        .save(&path)
+        .unwrap();
+    let image = |size: [f64; 2]| Texture { path: path.clone(), size, content: None };
+    let dirt_map = Some(DirtMap { image: image([4.0, 1.0]), set: "dirt".into() });
+    let stripes = |texture: Option<Texture>, second: Option<fn(Vec2) -> Vec2>| {
+        let mut scene = wall(Material {
+            base_color: [1.0; 4],
+            texture,
+            dirt_map: dirt_map.clone(),
+            ..Material::default()
+        });
+        if let Some(second) = second {
+            let part = &mut scene.meshes[0].parts[0];
+            part.second_uvs = part.uvs.iter().map(|uv| second(*uv)).collect();
+        }
+        let picture = Picture { width: 200, azimuth: Some(180.0), elevation: Some(0.0), ..small() };
+        let image = render(&scene, &picture).unwrap();
+        let row: Vec<u8> =
+            (0..200).map(|x| image.pixel(x, 50)).filter(|p| p[3] == 255).map(|p| p[0]).collect();
+        row.windows(2).filter(|pair| (pair[0] > 128) != (pair[1] > 128)).count()
+    };
+    // The wall is 4 m wide, with coordinates of the texture where the second set is missing.
+    assert_eq!((stripes(None, None), stripes(None, Some(|uv| uv * 4.0))), (1, 7));
+    // Dark halves of the texture, 2 m wide, and the dark half of the dirt.
+    assert_eq!(stripes(Some(image([2.0, 1.0])), None), 1);
+    assert_eq!(stripes(Some(image([2.0, 1.0])), Some(|_| Vec2::new(1.0, 0.5))), 0);
 }
 
 #[test]

@@ -18,6 +18,8 @@ pub(super) struct MaterialImages {
     pub texture: Option<SampledTexture>,
     /// Normal map, and the factor of its slopes.
     pub normals: Option<(SampledTexture, f32)>,
+    /// Dirt map, which multiplies the colour by the second texture coordinates.
+    pub dirt: Option<SampledTexture>,
 }
 
 /// Meaning of the pixels of an image.
@@ -25,6 +27,8 @@ pub(super) struct MaterialImages {
 enum PixelMeaning {
     /// sRGB and opacity.
     Color,
+    /// sRGB of an image on top of the texture.
+    Dirt,
     /// Direction, each part from -1 to 1.
     Direction,
 }
@@ -57,7 +61,9 @@ pub(super) fn load(materials: &[Material]) -> Result<Vec<MaterialImages>> {
             let scale = if map.scale.is_finite() { map.scale } else { 1.0 };
             Ok((SampledTexture::read(&map.image, PixelMeaning::Direction)?, scale))
         });
-        Ok(MaterialImages { texture, normals: normals.transpose()? })
+        let dirt = material.dirt_map.as_ref();
+        let dirt = dirt.map(|dirt| SampledTexture::read(&dirt.image, PixelMeaning::Dirt)).transpose()?;
+        Ok(MaterialImages { texture, normals: normals.transpose()?, dirt })
     };
     materials.iter().map(images).collect()
 }
@@ -67,6 +73,7 @@ impl SampledTexture {
         let name = texture.path.display();
         let what = match meaning {
             PixelMeaning::Color => "texture",
+            PixelMeaning::Dirt => "dirt map",
             PixelMeaning::Direction => "normal map",
         };
         if !texture.size.iter().all(|side| side.is_finite() && *side > 0.0) {
@@ -158,7 +165,7 @@ impl PixelMeaning {
     #[inline]
     fn decode(self, [red, green, blue, alpha]: [u8; 4]) -> Vec4 {
         match self {
-            Self::Color => {
+            Self::Color | Self::Dirt => {
                 let color = [red, green, blue].map(tone::decode);
                 let alpha = f32::from(alpha) / 255.0;
                 (Vec3::from_array(color) * alpha).extend(alpha)
@@ -175,7 +182,7 @@ impl PixelMeaning {
         let whole = value.truncate() / value.w.max(f32::MIN_POSITIVE);
         let [red, green, blue] = match self {
             // Transparent pixels do not contribute to the colour.
-            Self::Color => whole.to_array().map(srgb_byte),
+            Self::Color | Self::Dirt => whole.to_array().map(srgb_byte),
             Self::Direction => whole.to_array().map(|part| ((part + 1.0) * 127.5 + 0.5) as u8),
         };
         [red, green, blue, (value.w * 255.0 + 0.5) as u8]

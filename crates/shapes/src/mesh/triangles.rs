@@ -44,6 +44,17 @@ impl PolygonMesh {
         Ok(polygon.triangles()?.into_iter().map(|corners| corners.map(number)).collect())
     }
 
+    /// Returns true if all faces can be filled with triangles.
+    pub(crate) fn is_fillable(&self) -> bool {
+        self.faces.iter().all(|face| self.is_face_fillable(face))
+    }
+
+    /// Returns true if a face can be filled with triangles.
+    pub(crate) fn is_face_fillable(&self, face: &PolygonFace) -> bool {
+        matches!(face.rings.as_slice(), [ring] if ring.len() == 3)
+            || self.corner_triangles(face).is_ok_and(|triangles| !triangles.is_empty())
+    }
+
     /// Returns the halves of a convex quadrilateral, divided by its shorter diagonal, as numbers of its corners; `None` if it is not
     /// convex.
     fn halves(&self, ring: [u32; 4]) -> Option<[[u32; 3]; 2]> {

@@ -6,9 +6,10 @@ use rustc_hash::FxHashMap;
 /// Joins equal points, and gives each surface that passes through a point a point of its own: where parts of a solid touch at an edge or a point, the
 /// number of a point in `corners`, three for each triangle, becomes that of a copy, which is added to `points` (m).
 ///
-/// Around an edge of several parts, the triangles on both sides of the same material belong together. So most edges have two
-/// triangles, as the crate `boolmesh` requires; edges between two points at which the parts are joined keep more.
-pub(super) fn separate_surfaces(points: &mut Vec<DVec3>, corners: &mut [usize]) {
+/// Around an edge of several parts, the triangles on both sides of the same material belong together. Edges between two points at
+/// which the parts are joined are divided at a point for each part. So each edge has two triangles, as the crate `boolmesh`
+/// requires. `values` has a number for each corner.
+pub(super) fn separate_surfaces(points: &mut Vec<DVec3>, corners: &mut Vec<usize>, values: &mut Vec<f64>) {
     let mut first: FxHashMap<[u64; 3], usize> = FxHashMap::default();
     let numbers: Vec<usize> = (0..points.len())
         .map(|number| {
@@ -30,6 +31,7 @@ pub(super) fn separate_surfaces(points: &mut Vec<DVec3>, corners: &mut [usize]) 
         return;
     }
     let mut sets = crate::mesh::FaceSets::new(corners.len());
+    let mut partners: Vec<usize> = (0..corners.len()).collect();
     let next = |half: usize| if half % 3 == 2 { half - 2 } else { half + 1 };
     for half in 0..corners.len() {
         let [from, to] = ends(corners, half);
@@ -52,6 +54,7 @@ pub(super) fn separate_surfaces(points: &mut Vec<DVec3>, corners: &mut [usize]) 
                 nearest.unwrap_or(half)
             }
         };
+        partners[half] = partner;
         sets.join(half, next(partner));
         sets.join(next(half), partner);
     }
@@ -69,6 +72,55 @@ pub(super) fn separate_surfaces(points: &mut Vec<DVec3>, corners: &mut [usize]) 
                 points.len() - 1
             });
         }
+    }
+    divide_shared_edges(points, (corners, values), &partners);
+}
+
+/// Divides edges of more than two triangles at their middle, at a point for each pair of triangles that belong together.
+fn divide_shared_edges(
+    points: &mut Vec<DVec3>,
+    (corners, values): (&mut Vec<usize>, &mut Vec<f64>),
+    partners: &[usize],
+) {
+    let end = |half: usize| if half % 3 == 2 { half - 2 } else { half + 1 };
+    let mut counts: FxHashMap<[usize; 2], usize> = FxHashMap::default();
+    for half in 0..corners.len() {
+        *counts.entry([corners[half], corners[end(half)]]).or_default() += 1;
+    }
+    let mut middles: FxHashMap<usize, usize> = FxHashMap::default();
+    let mut last: FxHashMap<[usize; 2], DVec3> = FxHashMap::default();
+    for half in 0..corners.len() {
+        let (from, to, partner) = (corners[half], corners[end(half)], partners[half]);
+        let is_pair = partner != half && partners[partner] == half;
+        if from > to || !is_pair || counts.get(&[from, to]).is_none_or(|count| *count < 2) {
+            continue;
+        }
+        // The crate joins equal points.
+        let at = last.entry([from, to]).or_insert_with(|| points[from].midpoint(points[to]));
+        at.x = at.x.next_up();
+        points.push(*at);
+        middles.insert(half, points.len() - 1);
+        middles.insert(partner, points.len() - 1);
+    }
+    if middles.is_empty() {
+        return;
+    }
+    let (old, old_values) = (std::mem::take(corners), std::mem::take(values));
+    for (number, (triangle, value)) in old.chunks_exact(3).zip(old_values.chunks_exact(3)).enumerate() {
+        let middle = |side: usize| middles.get(&(3 * number + side)).copied();
+        let found = [middle(0), middle(1), middle(2)];
+        // Begins with the side before which there is no middle, if there is one.
+        let first =
+            (0..3).find(|side| found[*side].is_some() && found[(side + 2) % 3].is_none()).unwrap_or(0);
+        let [a, b, c] = [0, 1, 2].map(|side| triangle[(first + side) % 3]);
+        let faces: &[[usize; 3]] = match [0, 1, 2].map(|side| found[(first + side) % 3]) {
+            [Some(m), None, None] => &[[m, b, c], [m, c, a]],
+            [Some(m), Some(n), None] => &[[m, b, n], [m, n, c], [m, c, a]],
+            [Some(m), Some(n), Some(o)] => &[[m, b, n], [n, c, o], [o, a, m], [m, n, o]],
+            _ => &[[a, b, c]],
+        };
+        corners.extend(faces.iter().flatten());
+        values.extend(faces.iter().flat_map(|_| value));
     }
 }
 
@@ -91,5 +143,20 @@ mod tests {
         let hole = Shape::cuboid(DVec3::new(1.0, 1.0, 0.5)).translate(DVec3::new(0.5, 0.5, -0.25));
         let rest = pair.combine(&hole, SolidOperation::Difference).expect("a rest").expect("a solid");
         assert!(rest.is_closed() && (rest.volume() - (2.0 - 2.0 * 0.0625)).abs() < 1e-9, "{}", rest.volume());
+    }
+
+    #[test]
+    fn solids_that_are_joined_at_both_ends_of_an_edge_can_be_cut() {
+        let union = |one: &Shape, two: &Shape| {
+            one.combine(two, SolidOperation::Union).expect("a union").expect("a solid")
+        };
+        let pair = union(&cube(0.0, 0.0), &cube(1.0, 1.0));
+        // Plates above and below join the cubes at both ends of the edge that they share.
+        let plate = |z: f64| Shape::cuboid(DVec3::new(2.0, 2.0, 0.5)).translate(DVec3::Z * z);
+        let joined = union(&union(&pair, &plate(1.0)), &plate(-0.5));
+        assert!((joined.volume() - 6.0).abs() < 1e-9, "{}", joined.volume());
+        let hole = Shape::cuboid(DVec3::new(1.0, 1.0, 0.5)).translate(DVec3::new(0.5, 0.5, 0.25));
+        let rest = joined.combine(&hole, SolidOperation::Difference).expect("a rest").expect("a solid");
+        assert!(rest.is_closed() && (rest.volume() - (6.0 - 2.0 * 0.125)).abs() < 1e-6, "{}", rest.volume());
     }
 }

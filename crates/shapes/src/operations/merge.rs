@@ -9,7 +9,7 @@ use crate::mesh::{EdgeSums, FaceSets, PolygonFace, PolygonMesh, trace_loops};
 use crate::{Scope, Shape};
 
 /// Distance (m) within which points are equal.
-const SAME_POINT: f64 = 1e-6;
+pub(crate) const SAME_POINT: f64 = 1e-6;
 /// Largest sine of the angle between the normals of coplanar faces.
 const SAME_NORMAL: f64 = 1e-6;
 /// Number of faces between two checks for cancellation.
@@ -33,7 +33,7 @@ impl Shape {
                 face
             }));
         }
-        Ok(Some(Self::of_mesh(weld(&mesh), first.scope.axes)))
+        Ok(Some(Self::of_mesh(weld(&mesh, SAME_POINT), first.scope.axes)))
     }
 
     /// Returns the shape with coplanar neighbouring faces of the same style joined, points on edges inserted there, and
@@ -42,16 +42,16 @@ impl Shape {
         if let crate::ShapeBody::Edge(..) = self.body {
             return Ok(self.clone());
         }
-        let mut mesh = weld(&self.mesh());
+        let mut mesh = weld(&self.mesh(), SAME_POINT);
         insert_points_on_edges(&mut mesh)?;
         remove_opposite_faces(&mut mesh);
         Ok(Self::of_mesh(merge_coplanar(&mesh)?, self.scope.axes))
     }
 }
 
-/// Joins points within the tolerance, and drops faces without area.
-pub(crate) fn weld(mesh: &PolygonMesh) -> PolygonMesh {
-    let cell = |at: DVec3| (at / (2.0 * SAME_POINT)).floor();
+/// Joins points within a distance (m), and drops faces without area.
+pub(crate) fn weld(mesh: &PolygonMesh, near: f64) -> PolygonMesh {
+    let cell = |at: DVec3| (at / (2.0 * near)).floor();
     let key = |cell: DVec3| cell.to_array().map(|number| (number + 0.0).to_bits());
     let mut cells: FxHashMap<[u64; 3], Vec<u32>> = FxHashMap::default();
     let mut points: Vec<DVec3> = Vec::new();
@@ -59,13 +59,13 @@ pub(crate) fn weld(mesh: &PolygonMesh) -> PolygonMesh {
     for &at in &mesh.points {
         let own = cell(at);
         // A cell is two tolerances wide, so that only neighbours on the nearer sides can hold an equal point.
-        let nearer = (at / (2.0 * SAME_POINT) - own - 0.5).signum();
-        let near = (0..8).find_map(|corner| {
+        let nearer = (at / (2.0 * near) - own - 0.5).signum();
+        let known = (0..8).find_map(|corner| {
             let step = DVec3::new(f64::from(corner & 1), f64::from(corner >> 1 & 1), f64::from(corner >> 2));
             let others = cells.get(&key(own + step * nearer))?;
-            others.iter().copied().find(|other| points[*other as usize].distance(at) <= SAME_POINT)
+            others.iter().copied().find(|other| points[*other as usize].distance(at) <= near)
         });
-        numbers.push(near.unwrap_or_else(|| {
+        numbers.push(known.unwrap_or_else(|| {
             points.push(at);
             let number = u32::try_from(points.len() - 1).unwrap_or(u32::MAX);
             cells.entry(key(own)).or_default().push(number);
@@ -166,6 +166,16 @@ pub(crate) fn remove_opposite_faces(mesh: &mut PolygonMesh) {
 
 /// Joins coplanar faces with a common edge and the same style. Fails if the work of this thread is cancelled.
 pub(crate) fn merge_coplanar(mesh: &PolygonMesh) -> Result<PolygonMesh> {
+    merge(mesh, false)
+}
+
+/// Joins faces like [`merge_coplanar`], except those that would be too narrow to be filled with triangles.
+pub(crate) fn merge_fillable(mesh: &PolygonMesh) -> Result<PolygonMesh> {
+    merge(mesh, true)
+}
+
+/// Joins coplanar faces, all of them or those that can be filled with triangles afterwards (`fillable`).
+fn merge(mesh: &PolygonMesh, fillable: bool) -> Result<PolygonMesh> {
     let normals: Vec<DVec3> = mesh.faces.iter().map(|face| mesh.normal(face)).collect();
     let mut sides: FxHashMap<[u32; 2], usize> = FxHashMap::default();
     let mut doubled: FxHashSet<[u32; 2]> = FxHashSet::default();
@@ -212,14 +222,26 @@ pub(crate) fn merge_coplanar(mesh: &PolygonMesh) -> Result<PolygonMesh> {
         let edges: Vec<[u32; 2]> = rim.rest().collect();
         match trace_loops(&edges, |point| (turn * mesh.at(point)).truncate()) {
             Some(loops) => {
+                let joined = faces.len();
                 faces
                     .extend(loops.into_iter().map(|rings| PolygonFace { rings, style: first.style.clone() }));
+                if fillable && !faces[joined..].iter().all(|face| mesh.is_face_fillable(face)) {
+                    faces.truncate(joined);
+                    faces.extend(group.iter().map(|face| mesh.faces[*face].clone()));
+                }
             }
             None => faces.extend(group.iter().map(|face| mesh.faces[*face].clone())),
         }
     }
     let mut merged = PolygonMesh::new(mesh.points.clone(), faces);
+    let before = fillable.then(|| merged.faces.clone());
     remove_straight_points(&mut merged);
+    if let Some(before) = before {
+        let changed = merged.faces.iter().zip(&before).filter(|(face, before)| face.rings != before.rings);
+        if !changed.into_iter().all(|(face, _)| merged.is_face_fillable(face)) {
+            merged = PolygonMesh::new(mesh.points.clone(), before);
+        }
+    }
     let count = merged.faces.len();
     Ok(merged.select(0..count))
 }

@@ -23,7 +23,7 @@ mod trim;
 pub use bevel::BeveledSolid;
 pub use cut_hole::{CutFace, HoleOutline};
 pub use inset::Setback;
-pub(crate) use merge::{merge_coplanar, weld};
+pub(crate) use merge::{SAME_POINT, merge_coplanar, weld};
 pub use regions::EnvelopeLimit;
 pub use roof::ShapeRoof;
 pub use solids::SolidOperation;

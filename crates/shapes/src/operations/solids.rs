@@ -1,15 +1,17 @@
 //! Union, difference and intersection of solids.
 
+use std::borrow::Cow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use boolmesh::prelude::{Manifold, OpType, compute_boolean};
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_base::{MemoryOwner, Stop};
 use glam::DVec3;
+use rustc_hash::FxHashSet;
 
 use super::flat_faces::remove_flat_triangles;
 use super::manifold_points::separate_surfaces;
-use super::merge::{merge_coplanar, remove_opposite_faces};
+use super::merge::{merge_coplanar, merge_fillable, remove_opposite_faces, weld};
 use crate::Shape;
 use crate::mesh::{PolygonFace, PolygonMesh};
 use crate::own_thread::run_abandonable;
@@ -32,6 +34,8 @@ const MOST_TRIANGLES: usize = 2_000_000;
 const LONG: usize = 20_000;
 /// Approximate memory (bytes) of an operation for each triangle of the solids.
 const BYTES_OF_TRIANGLE: usize = 1000;
+/// Distance (m) within which points of a result almost coincide.
+const NEAR: f64 = 1e-7;
 /// Number of faces between two checks for cancellation.
 const STRETCH: usize = 4096;
 
@@ -39,7 +43,8 @@ impl Shape {
     /// Returns the union, difference or intersection of two solids; `None` if nothing remains.
     ///
     /// Faces keep their tags, and get "bool.a" or "bool.b" by the solid that they come from. Coplanar parts of a face
-    /// are joined. Fails if a shape is open, or if the operation fails numerically.
+    /// are joined, unless a face would be too narrow. If the operation fails numerically, it is tried with points joined that
+    /// almost coincide, and with the second solid moved by up to 40 millionths of its size. Fails if a shape is open, or if all of that fails.
     ///
     /// Method: the crate `boolmesh`, after E. Lalish's Manifold.
     ///
@@ -70,6 +75,46 @@ impl Shape {
                 SolidOperation::Intersection => Ok(None),
             };
         }
+        let (mut cause, mut unsound) = (String::new(), None);
+        for attempt in Attempt::ALL {
+            let Some([one, two]) = attempt.solids(self, other) else { continue };
+            match one.combine_once(&two, operation)? {
+                Ok(Some(solid)) if !solid.is_sound()? => unsound = unsound.or(Some(solid)),
+                Ok(solid) => return Ok(solid),
+                // The crate refuses empty results, too.
+                Err(_) if attempt == Attempt::Exact && self.leaves_nothing(other, operation)? => {
+                    return Ok(None);
+                }
+                Err(found) if cause.is_empty() => cause = found,
+                Err(_) => {}
+            }
+        }
+        // A closed solid is better than none, even if it can hardly be combined with others.
+        match unsound {
+            Some(solid) => Ok(Some(solid)),
+            None => Err(Error::geometry(format!("the set operation of two solids failed: {cause}"))
+                .help("move one of the solids by a millimetre, or simplify it")),
+        }
+    }
+
+    /// Returns true if a solid can be combined with others: at most two faces share an edge, or surfaces that touch can be separated.
+    fn is_sound(&self) -> Result<bool> {
+        let mesh = self.mesh();
+        let mut sides: FxHashSet<[u32; 2]> = FxHashSet::default();
+        if mesh.faces.iter().flat_map(|face| face.edges()).all(|edge| sides.insert(edge)) {
+            return Ok(true);
+        }
+        let (points, corners, faces) = triangles(self, self.scope.center(), "bool.a", &mut Vec::new())?;
+        let check = || Manifold::new_with_values(&points, &corners, &faces).is_ok();
+        Ok(catch_unwind(AssertUnwindSafe(check)).unwrap_or(false))
+    }
+
+    /// Returns the result of an operation on solids whose boxes touch, or the cause of a numerical failure.
+    fn combine_once(
+        &self,
+        other: &Self,
+        operation: SolidOperation,
+    ) -> Result<std::result::Result<Option<Self>, String>> {
         let center = self.scope.center();
         let mut styles: Vec<SharedStyle> = Vec::new();
         let one = triangles(self, center, "bool.a", &mut styles)?;
@@ -97,16 +142,10 @@ impl Shape {
         } else {
             run_abandonable(compute)?
         };
-        let failed = |cause: &str| {
-            Error::geometry(format!("the set operation of two solids failed: {cause}"))
-                .help("move one of the solids by a millimetre, or simplify it")
-        };
         let solid = match result {
             Some(Ok(solid)) => solid,
-            // The crate refuses empty results, too.
-            Some(Err(_)) if self.leaves_nothing(other, operation)? => return Ok(None),
-            Some(Err(cause)) => return Err(failed(&cause)),
-            None => return Err(failed("numerical trouble")),
+            Some(Err(cause)) => return Ok(Err(cause)),
+            None => return Ok(Err("numerical trouble".into())),
         };
         let points = solid.ps.iter().map(|at| DVec3::from_array(at.to_array()) + center).collect();
         let mut faces = Vec::with_capacity(solid.nf);
@@ -121,20 +160,28 @@ impl Shape {
             faces.push(PolygonFace::of(&ring, styles.get(face).unwrap_or(&None)));
         }
         if faces.is_empty() {
-            return Ok(None);
+            return Ok(Ok(None));
         }
-        let mut mesh = PolygonMesh::new(points, faces);
+        let whole = weld_closed(PolygonMesh::new(points, faces));
+        let mut mesh = whole.clone();
         remove_flat_triangles(&mut mesh);
         let mut mesh = merge_coplanar(&mesh)?;
+        if !mesh.is_fillable() {
+            // Corners on edges can make a face too narrow, which flat triangles beside it do not.
+            mesh = merge_fillable(&whole)?;
+        }
         // Coincident faces of the solids can leave both sides of a face without thickness.
         remove_opposite_faces(&mut mesh);
         if mesh.faces.is_empty() {
-            return Ok(None);
+            return Ok(Ok(None));
         }
         if !mesh.is_closed() {
-            return Err(failed("the result is open"));
+            return Ok(Err("the result is open".into()));
         }
-        Ok(Some(Self::of_mesh(mesh, self.scope.axes)))
+        if !mesh.is_fillable() {
+            return Ok(Err("a face is too narrow".into()));
+        }
+        Ok(Ok(Some(Self::of_mesh(mesh, self.scope.axes))))
     }
 
     /// Returns true if nothing is the result of an operation on two solids.
@@ -169,6 +216,59 @@ impl Shape {
     }
 }
 
+/// Way to compute an operation, after which the next one is tried if it fails.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Attempt {
+    /// The solids as they are.
+    Exact,
+    /// Points that almost coincide are joined.
+    Welded,
+    /// The same, and the second solid is moved by a fraction of its size, so that faces of both that almost coincide cross properly.
+    Moved(f64),
+}
+
+impl Attempt {
+    const ALL: [Self; 5] =
+        [Self::Exact, Self::Welded, Self::Moved(1e-6), Self::Moved(-7e-6), Self::Moved(4e-5)];
+
+    /// Returns the solids to combine; `None` if they are those of the attempt before.
+    fn solids<'a>(self, one: &'a Shape, two: &'a Shape) -> Option<[Cow<'a, Shape>; 2]> {
+        let welded = || [one, two].map(|shape| welded(shape).map_or(Cow::Borrowed(shape), Cow::Owned));
+        match self {
+            Self::Exact => Some([one, two].map(Cow::Borrowed)),
+            Self::Welded => {
+                let solids = welded();
+                solids.iter().any(|shape| matches!(shape, Cow::Owned(_))).then_some(solids)
+            }
+            Self::Moved(fraction) => {
+                let [one, two] = welded();
+                let [low, high] = two.bounds();
+                let step = (high - low).max_element() * fraction;
+                // No plane of a usual model has this direction.
+                let moved = two.translate(DVec3::new(0.531, 0.677, 0.509) * step);
+                Some([one, Cow::Owned(moved)])
+            }
+        }
+    }
+}
+
+/// Returns a solid whose points that almost coincide are joined, without pairs of opposite faces; `None` if it is the same or would
+/// be open.
+fn welded(shape: &Shape) -> Option<Shape> {
+    let crate::ShapeBody::Mesh(mesh) = &shape.body else { return None };
+    let mut joined = weld(mesh, NEAR);
+    remove_opposite_faces(&mut joined);
+    let is_other = joined.points.len() != mesh.points.len() || joined.faces.len() != mesh.faces.len();
+    (is_other && !joined.faces.is_empty() && joined.is_closed())
+        .then(|| Shape::of_mesh(joined, shape.scope.axes))
+}
+
+/// Returns a closed mesh with points that almost coincide joined, unless that opens it.
+fn weld_closed(mesh: PolygonMesh) -> PolygonMesh {
+    let joined = weld(&mesh, NEAR);
+    if joined.points.len() < mesh.points.len() && joined.is_closed() { joined } else { mesh }
+}
+
 /// Points, corners and the style number of each corner, as the crate `boolmesh` takes them.
 type TriangleColumns = (Vec<f64>, Vec<usize>, Vec<f64>);
 
@@ -192,7 +292,7 @@ fn triangles(
         corners.extend(own.iter().flatten().map(|point| *point as usize));
         styles.push(FaceStyle::with_automatic_tag(&face.style, tag));
     }
-    separate_surfaces(&mut points, &mut corners);
+    separate_surfaces(&mut points, &mut corners, &mut faces);
     let points = points.into_iter().flat_map(|at| at.to_array()).collect();
     Ok((points, corners, faces))
 }

@@ -33,6 +33,30 @@ impl Default for SweepPath {
     }
 }
 
+impl SweepPath {
+    /// Returns the number of the point (from 0) at which the path turns most tightly, and the radius (m) of an arc between the
+    /// middles of the shorter segment and its neighbour there; `None` for a straight path.
+    ///
+    /// ```
+    /// use burgeon_shapes::SweepPath;
+    /// use glam::DVec3;
+    ///
+    /// let points = vec![DVec3::ZERO, DVec3::X * 4.0, DVec3::new(4.0, 1.0, 0.0), DVec3::new(4.0, 9.0, 9.0)];
+    /// assert_eq!(SweepPath { points, ..SweepPath::default() }.tightest_turn().map(|(at, _)| at), Some(1));
+    /// ```
+    pub fn tightest_turn(&self) -> Option<(usize, f64)> {
+        let count = self.points.len();
+        let turns = if self.closed { 0..count } else { 1..count.saturating_sub(1) };
+        let radius = |at: usize| {
+            let [before, after] = [self.points[(at + count - 1) % count], self.points[(at + 1) % count]];
+            let (from, to) = (self.points[at] - before, after - self.points[at]);
+            let tangent = (from.angle_between(to) / 2.0).tan();
+            (tangent > 1e-9).then(|| (at, from.length().min(to.length()) / 2.0 / tangent))
+        };
+        turns.filter_map(radius).min_by(|a, b| a.1.total_cmp(&b.1))
+    }
+}
+
 /// Directions of the profile along a segment of a path.
 #[derive(Debug, Clone, Copy)]
 struct SegmentFrame {
@@ -95,11 +119,14 @@ impl Shape {
             let (from, to) = (&sections[number], &sections[(number + 1) % count]);
             let mut is_short = false;
             for (from, to) in from.iter().zip(to) {
+                let is_back = |corner: usize| (to[corner] - from[corner]).dot(frame.along) <= 0.0;
                 for corner in 0..from.len() {
                     let next = (corner + 1) % from.len();
-                    is_short |= (to[corner] - from[corner]).dot(frame.along) <= 0.0;
+                    is_short |= is_back(corner);
                     let [a, b, c, d] = [from[next], from[corner], to[corner], to[next]];
-                    if (b - a).cross(c - a).dot(d - a).abs() <= 1e-9 * (c - a).length().powi(3) {
+                    let is_flat = (b - a).cross(c - a).dot(d - a).abs() <= 1e-9 * (c - a).length().powi(3);
+                    // The outline of a side between corners that go back crosses itself.
+                    if is_flat && !is_back(corner) && !is_back(next) {
                         builder.face([[a, b, c, d].as_slice()], &side);
                     } else {
                         builder.face([[a, b, c].as_slice()], &side);
@@ -309,6 +336,22 @@ mod tests {
             "{}",
             column.volume()
         );
+    }
+
+    #[test]
+    fn a_sweep_with_turns_tighter_than_the_profile_can_be_drawn_and_names_its_tightest_turn() {
+        let arc: Vec<(f64, f64, f64)> = (0..=40)
+            .map(|step| std::f64::consts::PI * f64::from(step) / 40.0)
+            .map(|angle| (angle.cos() / 20.0, angle.sin() / 20.0, 0.0))
+            .collect();
+        let arc = path(&arc);
+        let (solid, crossing) = square(false).sweep(&arc).expect("a bar");
+        assert_eq!(crossing.len(), 40);
+        let mesh = solid.mesh();
+        assert!(solid.is_closed() && mesh.faces.iter().all(|face| mesh.triangles(face).is_ok()));
+        let (_, radius) = arc.tightest_turn().expect("a turn");
+        assert!((radius - 0.05).abs() < 1e-4, "{radius}");
+        assert_eq!(path(&[(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (3.0, 0.0, 0.0)]).tightest_turn(), None);
     }
 
     #[test]

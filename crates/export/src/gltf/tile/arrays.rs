@@ -39,6 +39,11 @@ pub(super) fn add_primitive<'a>(
         let place = body.share(ArrayKind::TexCoords, BodyArray::Blob(bytes));
         description.accessor(accessor(place, ComponentType::F32, Type::Vec2, count))
     });
+    let second_tex_coords = (!part.second_tex_coords.is_empty()).then(|| {
+        let bytes = part.second_tex_coords.iter().flatten().flat_map(|bits| bits.to_le_bytes()).collect();
+        let place = body.share(ArrayKind::TexCoords, BodyArray::Blob(bytes));
+        description.accessor(accessor(place, ComponentType::F32, Type::Vec2, count))
+    });
     let features = key.table.map(|_| features(part, rows, description, body));
     let indices = {
         let short = count < LONG;
@@ -63,7 +68,7 @@ pub(super) fn add_primitive<'a>(
         mesh_features(part.features(none), has_others.then_some(none), table)
     });
     Primitive {
-        attributes: Attributes { positions, normals: Some(normals), tex_coords, features },
+        attributes: Attributes { positions, normals: Some(normals), tex_coords, second_tex_coords, features },
         extensions,
         shading: None,
         indices,

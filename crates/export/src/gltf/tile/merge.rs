@@ -26,7 +26,11 @@ pub(super) struct MergedPart {
     pub(super) triangles: Vec<[u32; 3]>,
     /// Set if vertices have texture coordinates.
     pub(super) is_textured: bool,
+    /// Second texture coordinates of all vertices, as bits of single-precision numbers; empty without a dirt map.
+    pub(super) second_tex_coords: Vec<[u32; 2]>,
     known: FxHashMap<VertexRecord, u32>,
+    /// Numbers of the vertices with second texture coordinates.
+    known_second: FxHashMap<(VertexRecord, [u32; 2]), u32>,
 }
 
 /// Mesh that is put together from instances.
@@ -49,10 +53,12 @@ impl<'a> MergedMesh<'a> {
                 continue;
             }
             let key = PrimitiveKey { material: part.material, table };
-            let texture = self.scene.materials[part.material].image_size();
+            let material = &self.scene.materials[part.material];
+            let (texture, dirt) =
+                (material.image_size(), material.dirt_map.as_ref().map(|map| map.image.size));
             let merged = self.parts.entry(key).or_default();
             merged.is_textured = texture.is_some();
-            merged.add(part, transform, texture, feature, &self.format);
+            merged.add(part, transform, (texture, dirt), feature, &self.format);
         }
     }
 
@@ -67,7 +73,7 @@ impl MergedPart {
         &mut self,
         part: &Part,
         transform: &DAffine3,
-        texture: Option<[f64; 2]>,
+        (texture, dirt): (Option<[f64; 2]>, Option<[f64; 2]>),
         feature: u32,
         format: &VertexFormat,
     ) {
@@ -83,12 +89,20 @@ impl MergedPart {
                     let normal = turn * part.normals[index].vector().as_dvec3();
                     let normal = normal.try_normalize().unwrap_or(DVec3::Z).as_vec3();
                     let uv = texture.map(|size| tex_coord(part.uvs[index], size)).unwrap_or_default();
-                    moved[index] = self.vertex(VertexRecord {
+                    let second = dirt.map(|size| {
+                        let uv = tex_coord(part.second_uv(index), size);
+                        uv.map(|number| (number + 0.0).to_bits())
+                    });
+                    let vertex = VertexRecord {
                         place: format.place(DVec3::new(point.x, point.z, -point.y)),
                         normal: format.normal(Vec3::new(normal.x, normal.z, -normal.y)),
                         tex_coord: uv.map(|number| (number + 0.0).to_bits()),
                         feature,
-                    });
+                    };
+                    moved[index] = match second {
+                        Some(second) => self.vertex_with_second(vertex, second),
+                        None => self.vertex(vertex),
+                    };
                 }
                 moved[index]
             });
@@ -109,6 +123,17 @@ impl MergedPart {
         let number = *self.known.entry(vertex).or_insert(next);
         if number == next {
             self.vertices.push(vertex);
+        }
+        number
+    }
+
+    /// Returns the number of a vertex with second texture coordinates; adds it if it is new.
+    fn vertex_with_second(&mut self, vertex: VertexRecord, second: [u32; 2]) -> u32 {
+        let next = self.vertices.len() as u32;
+        let number = *self.known_second.entry((vertex, second)).or_insert(next);
+        if number == next {
+            self.vertices.push(vertex);
+            self.second_tex_coords.push(second);
         }
         number
     }

@@ -296,3 +296,32 @@ fn quantised_tiles_are_smaller_and_need_the_extension() {
     };
     assert_eq!([kind(&plain), kind(&fine), kind(&coarse)], [Some(5126), Some(5126), Some(5123)]);
 }
+
+#[test]
+fn the_second_set_of_texture_coordinates_is_kept_in_a_tile() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = samples::stained_boxes(folder.path());
+    let tile = ReadTile::of(&scene, &TileModelOptions::default(), 0);
+    let mut sets = 0;
+    for mesh in tile.json["meshes"].as_array().unwrap() {
+        for primitive in mesh["primitives"].as_array().unwrap() {
+            let attributes = &primitive["attributes"];
+            let material = &tile.json["materials"][index(&primitive["material"])];
+            assert_eq!(attributes["TEXCOORD_1"].is_null(), material["occlusionTexture"].is_null());
+            if attributes["TEXCOORD_1"].is_null() {
+                continue;
+            }
+            let found = tile.array(&attributes["TEXCOORD_1"]);
+            assert_eq!(found.len(), tile.array(&attributes["POSITION"]).len());
+            let most = |found: &[[f64; 4]]| found.iter().fold(f64::MIN, |most, uv| most.max(uv[0]));
+            let part = |vertices: &burgeon_scene::Part| {
+                let all = (0..vertices.positions.len()).map(|vertex| vertices.second_uv(vertex).x);
+                f64::from(all.fold(f32::MIN, f32::max)) / 4.0
+            };
+            let wanted = scene.meshes[..2].iter().map(|mesh| part(&mesh.parts[0]));
+            assert!(wanted.into_iter().any(|wanted| (most(&found) - wanted).abs() < 1e-5));
+            sets += 1;
+        }
+    }
+    assert_eq!(sets, 2);
+}

@@ -13,6 +13,7 @@ use super::super::material::{self, Textures};
 use super::super::metadata::{MESH_FEATURES, Metadata};
 use super::super::packing::MESHOPT;
 use super::super::place::{add_group, reach};
+use super::super::quantize::TexCoordRanges;
 use super::arrays::add_primitive;
 use super::merge::{MergedMesh, merge};
 use super::options::{TileCompression, TileModelOptions};
@@ -46,7 +47,7 @@ pub fn write_tile_model(
     files: &mut Files,
 ) -> Result<TileModelCounts> {
     let checked = check(scene)?;
-    let images = Images::load_with_normals(&checked)?;
+    let images = Images::load_all(&checked)?;
     let stop = files.stop();
     stop.check()?;
     let mut counts = TileModelCounts::default();
@@ -73,8 +74,9 @@ fn describe<'a>(
         metadata.use_tables(&mut description.root);
     }
     let metadata = metadata.as_ref();
+    let ranges = TexCoordRanges::default();
     let materials =
-        material::write(checked, images, &Textures::Embedded, &[], &mut description.root, &mut body);
+        material::write(checked, images, &Textures::Embedded, &ranges, &mut description.root, &mut body);
     let (repeated, others) = divide_repeated(checked, metadata, options.expand_instances);
     let (low, high) = checked.scene.bounds().unwrap_or_default();
     let (low, high) = (low - checked.origin, high - checked.origin);

@@ -33,6 +33,8 @@ pub(in super::super) struct MirroredPoint<'a> {
     pub normal: Vec3A,
     /// Texture coordinates (m).
     pub uv: Vec2,
+    /// Second texture coordinates (m).
+    pub second_uv: Vec2,
     /// Distance from the mirror, in the stage's units.
     pub distance: f32,
 }
@@ -108,6 +110,7 @@ impl<'a> Tracer<'a> {
             position: origin + direction * nearest,
             normal: if normal.dot(direction) > 0.0 { -normal } else { normal },
             uv: uv(draw, corners, weights),
+            second_uv: mix_uvs(corners.map(|corner| draw.part.second_uv(corner)), weights),
             distance: nearest,
         })
     }
@@ -141,7 +144,11 @@ fn meet_triangle(draw: &DrawCall<'_>, index: usize, from: Vec3A, along: Vec3A) -
 
 /// Returns the texture coordinates (m) at these weights of the second and third of the triangle's `corners`.
 fn uv(draw: &DrawCall<'_>, corners: [usize; 3], weights: Vec2) -> Vec2 {
-    let [a, b, c] = corners.map(|corner| draw.part.uvs.get(corner).copied().unwrap_or_default());
+    mix_uvs(corners.map(|corner| draw.part.uvs.get(corner).copied().unwrap_or_default()), weights)
+}
+
+/// Returns the texture coordinates at these weights of the second and third corner of a triangle.
+fn mix_uvs([a, b, c]: [Vec2; 3], weights: Vec2) -> Vec2 {
     a + (b - a) * weights.x + (c - a) * weights.y
 }
 
