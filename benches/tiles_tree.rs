@@ -1,5 +1,6 @@
-//! Tree of the tiles of a country with synthetic footprints: plan, join and check of the tree, without content.
-//! `cargo bench --bench tiles_tree`, or `-- 10000000 870` for that number of features, and of features of a tile.
+//! Tree of the tiles of a country with synthetic footprints: plan and join of the tree, with the content of a sample.
+//! `cargo bench --bench tiles_tree`, or `-- 10000000 870` for that number of features, and of features of a tile. A third number makes
+//! one of so many shares of the tiles: `-- 46286334 500 100` makes a hundredth of the tiles of a country like France.
 
 #![allow(clippy::print_stdout, clippy::cast_precision_loss, reason = "a bench prints its figures")]
 
@@ -31,6 +32,9 @@ s:interpret("Walls", function(this) this:walls({ height = 6 }) end)
 s:derive(0)
 "#;
 
+/// Script whose tiles are made: houses with simple facades.
+const HOUSES: &str = include_str!("tiles.lua");
+
 /// Stream of pseudo-random numbers from 0 to 1 (splitmix64).
 struct Stream(u64);
 
@@ -44,8 +48,9 @@ impl Stream {
     }
 }
 
-/// Writes a GeoPackage of `count` rectangles in towns of very different sizes over 950 km, in Lambert-93.
-fn write_country(path: &Path, count: u64) -> Outcome<()> {
+/// Writes a GeoPackage of `count` rectangles in towns of very different sizes over 950 km, in Lambert-93. `is_indexed` adds a spatial
+/// index.
+fn write_country(path: &Path, count: u64, is_indexed: bool) -> Outcome<()> {
     let connection = Connection::open(path)?;
     connection.execute_batch(
         "PRAGMA journal_mode = OFF; PRAGMA synchronous = OFF; PRAGMA page_size = 65536; VACUUM;
@@ -55,9 +60,16 @@ fn write_country(path: &Path, count: u64) -> Outcome<()> {
          INSERT INTO gpkg_spatial_ref_sys VALUES ('a', 2154, 'EPSG', 2154);
          INSERT INTO gpkg_contents VALUES ('buildings', 'features');
          INSERT INTO gpkg_geometry_columns VALUES ('buildings', 'geom', 2154);
+         CREATE TABLE gpkg_extensions(table_name TEXT, column_name TEXT, extension_name TEXT);
          CREATE TABLE buildings(fid INTEGER PRIMARY KEY, geom BLOB, levels INTEGER);
+         CREATE VIRTUAL TABLE rtree_buildings_geom USING rtree(id, minx, maxx, miny, maxy);
          BEGIN",
     )?;
+    if is_indexed {
+        connection
+            .execute("INSERT INTO gpkg_extensions VALUES ('buildings', 'geom', 'gpkg_rtree_index')", ())?;
+    }
+    let mut index = connection.prepare("INSERT INTO rtree_buildings_geom VALUES (?1, ?2, ?3, ?4, ?5)")?;
     let mut insert = connection.prepare("INSERT INTO buildings VALUES (?1, ?2, ?3)")?;
     let mut stream = Stream(7);
     let (mut number, mut left, mut place, mut columns) = (0_u64, 0_u64, [0.0; 2], 1_u64);
@@ -80,18 +92,22 @@ fn write_country(path: &Path, count: u64) -> Outcome<()> {
             blob.extend(value.to_le_bytes());
         }
         number += 1;
-        insert.execute((i64::try_from(number)?, &blob, 1 + (number % 4) as i64))?;
+        let id = i64::try_from(number)?;
+        insert.execute((id, &blob, 1 + (number % 4) as i64))?;
+        if is_indexed {
+            index.execute((id, west, east, south, north))?;
+        }
     }
-    drop(insert);
+    drop((insert, index));
     connection.execute_batch("COMMIT")?;
     Ok(())
 }
 
-/// Writes a manifest and a content of one byte for each tile.
+/// Writes a manifest and a content of one byte for each tile that has not been made.
 fn write_manifests(folder: &TileFolder, plan: &TilePlan) -> Outcome<()> {
     let frame = plan.frame.reference()?;
     let map = EarthMap::new(&frame, plan.frame.geoid_height)?;
-    for tile in &plan.tiles {
+    for tile in plan.tiles.iter().filter(|tile| !folder.manifest(tile.id).exists()) {
         let PlannedTile { region: [west, south, east, north], .. } = *tile;
         let axes = map.axes(tile.origin())?;
         let middle = [west.midpoint(east) - tile.origin()[0], south.midpoint(north) - tile.origin()[1]];
@@ -125,34 +141,51 @@ fn write_manifests(folder: &TileFolder, plan: &TilePlan) -> Outcome<()> {
     Ok(())
 }
 
+/// Runs a command of `burgeon tiles` in a folder, and prints its time and its report.
+fn run(folder: &Path, name: &str, arguments: &[&str]) -> Outcome<()> {
+    let begin = Instant::now();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_burgeon"));
+    command.args(["tiles", name]).args(arguments).arg("--json").current_dir(folder);
+    let output = command.output()?;
+    let (text, problem) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+    let time = begin.elapsed().as_secs_f64();
+    println!("{name}: {time:.1} s, {:.1} s of CPU time so far; {}{problem}", children_cpu(), text.trim());
+    if output.status.success() { Ok(()) } else { Err(format!("{name} failed").into()) }
+}
+
+/// Makes one of `shares` shares of the tiles of a plan, and prints its features and its size.
+fn make_sample(folder: &TileFolder, plan: &TilePlan, shares: &str) -> Outcome<()> {
+    let share = format!("1/{shares}");
+    run(folder.path(), "make", &[".", "--threads", "1", "--share", &share])?;
+    let (mut tiles, mut features, mut bytes) = (0, 0, 0);
+    for tile in &plan.tiles {
+        if let Some(TileManifest { content: Some(file), .. }) = TileManifest::read(folder, tile.id)? {
+            tiles += 1;
+            features += tile.features;
+            bytes += file.bytes;
+        }
+    }
+    println!("sample: {tiles} tiles with {features} features and {:.1} MB", bytes as f64 / 1e6);
+    Ok(())
+}
+
 fn main() -> Outcome<()> {
     let mut numbers = std::env::args().filter_map(|argument| argument.parse::<u64>().ok());
     let count = numbers.next().unwrap_or(FEATURES);
     let target = numbers.next().unwrap_or(TARGET).to_string();
+    let shares = numbers.next().map(|shares| shares.to_string());
     let folder = tempfile::tempdir()?;
     let path = |name: &str| folder.path().join(name);
     let begin = Instant::now();
-    write_country(&path("country.gpkg"), count)?;
-    fs::write(path("country.lua"), SCRIPT)?;
-    println!("{count} features written in {:.1} s", begin.elapsed().as_secs_f64());
-    let begin = Instant::now();
-    let output = Command::new(env!("CARGO_BIN_EXE_burgeon"))
-        .args([
-            "tiles",
-            "plan",
-            "country.lua",
-            "-o",
-            "out",
-            "--target-features",
-            &target,
-            "--geoid-height",
-            "44",
-            "--json",
-        ])
-        .current_dir(folder.path())
-        .output()?;
-    let (text, problem) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
-    println!("plan: {:.1} s; {}{problem}", begin.elapsed().as_secs_f64(), text.trim());
+    write_country(&path("country.gpkg"), count, shares.is_some())?;
+    let script =
+        if shares.is_some() { HOUSES.replace("city.gpkg", "country.gpkg") } else { SCRIPT.to_owned() };
+    fs::write(path("country.lua"), script)?;
+    let size = fs::metadata(path("country.gpkg"))?.len() / 1_000_000;
+    println!("{count} features with {size} MB written in {:.1} s", begin.elapsed().as_secs_f64());
+    let options =
+        ["--reach", "2", "--geoid-height", "44", "--compress", "meshopt", "--target-features", &target];
+    run(folder.path(), "plan", &[&["country.lua", "-o", "out"][..], &options].concat())?;
     let out = TileFolder(path("out"));
     let begin = Instant::now();
     let plan = TilePlan::read(&out.plan())?;
@@ -175,6 +208,9 @@ fn main() -> Outcome<()> {
     again.reach = 20.0;
     again.set_hashes()?;
     println!("hashes with a reach: {:.2} s", begin.elapsed().as_secs_f64());
+    if let Some(shares) = &shares {
+        make_sample(&out, &plan, shares)?;
+    }
     let begin = Instant::now();
     write_manifests(&out, &plan)?;
     println!("manifests written in {:.1} s", begin.elapsed().as_secs_f64());
@@ -188,4 +224,13 @@ fn main() -> Outcome<()> {
         );
     }
     Ok(())
+}
+
+/// Returns the CPU time (s) of all child processes that have ended; only on Linux.
+fn children_cpu() -> f64 {
+    let stat = fs::read_to_string("/proc/self/stat").unwrap_or_default();
+    let fields: Vec<&str> = stat.rsplit(')').next().unwrap_or_default().split_whitespace().collect();
+    let ticks = |index: usize| fields.get(index).and_then(|field| field.parse::<f64>().ok());
+    // Fields 16 and 17 of proc_pid_stat(5), in hundredths of a second, counted without the fields up to the process name.
+    ticks(13).zip(ticks(14)).map_or(f64::NAN, |(user, system)| (user + system) / 100.0)
 }

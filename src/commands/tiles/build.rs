@@ -18,6 +18,7 @@ use burgeon::warning::WarningKind;
 use burgeon::{Error, Result, Run, Stop};
 
 use super::super::run::{attributes, systems};
+use super::ground::ScriptGround;
 
 /// Script that is run for one tile after another, with the data that tiles share.
 pub(super) struct TileBuilder<'a> {
@@ -95,12 +96,28 @@ impl<'a> TileBuilder<'a> {
         FeatureDrawings::new(fine).errors(&coarse, &proceed)
     }
 
+    /// Returns the terrain of the script that gives terrain tiles their colours, if there is one.
+    ///
+    /// The script runs without features, or, if it needs some, with those of the first tile.
+    pub(super) fn ground(&self) -> Result<Option<ScriptGround>> {
+        let Some(tile) = self.plan.tiles.first() else { return Ok(None) };
+        let beside = |[low, _]: [[f64; 3]; 2]| [low[0] - 20.0, low[1] - 20.0, low[0] - 10.0, low[1] - 10.0];
+        let without = self.run(tile, &self.window_of(beside), self.options.lod);
+        let run = without.or_else(|_: Error| self.run(tile, &self.window(tile), self.options.lod));
+        run.map(|(_, run)| ScriptGround::find(run))
+    }
+
     /// Returns the boxes of the features that a tile needs.
     fn window(&self, tile: &PlannedTile) -> Arc<SourceWindow> {
         let needed = self.plan.needed(tile);
+        self.window_of(|_| needed)
+    }
+
+    /// Returns boxes of features, of which `needed` returns west, south, east and north (m) from the bounds (m) of a source.
+    fn window_of(&self, needed: impl Fn([[f64; 3]; 2]) -> [f64; 4]) -> Arc<SourceWindow> {
         let boxes = self.plan.sources.iter().map(|source| {
             let (in_parts, bounds) = (source.in_parts, source.bounds);
-            (source.key.clone(), WindowBox { needed, in_parts, bounds })
+            (source.key.clone(), WindowBox { needed: needed(bounds), in_parts, bounds })
         });
         Arc::new(SourceWindow::new(self.frame.clone(), boxes.collect()))
     }

@@ -6,7 +6,9 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
-use burgeon::tiles::make::{BuiltTile, make_tile, sweep_temporary};
+use burgeon::tiles::make::{
+    BuiltTile, GroundColors, PlainGround, TerrainHeights, make_tile, sweep_temporary,
+};
 use burgeon::tiles::plan::{TileShare, share_of};
 use burgeon::tiles::{EarthMap, PlannedTile, TileFolder, TileId, TileManifest, TileOutcome, TilePlan};
 use burgeon::{Error, Result, Stop};
@@ -17,6 +19,7 @@ use super::super::progress::ProgressDisplay;
 use super::super::report;
 use super::super::shared::{end_on_interrupt, seconds, threads};
 use super::build::TileBuilder;
+use super::ground::ScriptGround;
 use super::inputs::{geoid, planned_flags, terrain_heights, tile_folder, verify_files};
 
 /// Makes the tiles of a plan that have not been made, or a share of them
@@ -95,7 +98,7 @@ impl MakeCommand {
         for folder in [folder, &terrain_folder] {
             sweep_temporary(folder, Duration::from_secs_f64(self.stale_after));
         }
-        let mut heights = None;
+        let mut ground = None;
         let flags = planned_flags(folder.path(), &plan, self.threads)?;
         let builder = TileBuilder::new(&plan, &flags.script, flags.options()?)?;
         let frame = plan.frame.reference()?;
@@ -119,12 +122,8 @@ impl MakeCommand {
             let build = |tile: &PlannedTile| match (&plan.terrain, is_terrain) {
                 (Some(terrain), true) => {
                     // A share without terrain tiles to be made does not read the heights.
-                    let heights = heights.get_or_insert_with(|| {
-                        terrain_heights(self.folder.path(), &plan).map(|it| it.map(Arc::new))
-                    });
-                    match heights {
-                        Ok(Some(heights)) => heights.build(terrain, tile, plan.model),
-                        Ok(None) => BuiltTile::failed(Error::internal("the plan has no terrain")),
+                    match ground.get_or_insert_with(|| self.ground(&plan, &builder)) {
+                        Ok(ground) => ground.heights.build(terrain, tile, plan.model, ground.colors()),
                         Err(error) => BuiltTile::failed(error.clone()),
                     }
                 }
@@ -150,6 +149,15 @@ impl MakeCommand {
         }
         drop(_progress);
         self.report(counts, begin.elapsed())
+    }
+
+    /// Returns the heights and the colours of the terrain of a plan.
+    fn ground(&self, plan: &TilePlan, builder: &TileBuilder<'_>) -> Result<PlannedGround> {
+        let heights = terrain_heights(self.folder.path(), plan)?;
+        let heights = heights.ok_or_else(|| Error::internal("the plan has no terrain"))?;
+        let is_colored = plan.terrain.as_ref().is_some_and(|terrain| terrain.is_colored);
+        let script = if is_colored { builder.ground()? } else { None };
+        Ok(PlannedGround { heights, script })
     }
 
     /// Returns the name of the share and the indices of its tiles.
@@ -203,6 +211,18 @@ impl MakeCommand {
             Some(first) => Err(Error::data(format!("{} tiles failed, such as {first}", failed.len()))
                 .help("burgeon tiles join FOLDER lists the missing features with their causes")),
         }
+    }
+}
+
+/// Heights of the terrain of a plan, and the terrain of the script that gives it colours.
+struct PlannedGround {
+    heights: TerrainHeights,
+    script: Option<ScriptGround>,
+}
+
+impl PlannedGround {
+    fn colors(&self) -> &dyn GroundColors {
+        self.script.as_ref().map_or(&PlainGround, |script| script)
     }
 }
 

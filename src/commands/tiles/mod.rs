@@ -6,6 +6,7 @@
 mod build;
 mod check;
 mod command;
+mod ground;
 mod inputs;
 mod join;
 mod make;

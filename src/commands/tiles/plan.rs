@@ -244,6 +244,7 @@ impl PlanCommand {
         };
         self.add_geoid(&mut plan, folder)?;
         self.add_terrain(&mut plan, folder)?;
+        self.add_colors(&mut plan)?;
         self.add_levels(&mut plan)?;
         plan.set_hashes()?;
         Ok(plan)
@@ -304,6 +305,28 @@ impl PlanCommand {
         let heights = TerrainHeights::open(path, &path.display().to_string(), &frame)?;
         let file = PlannedFile { path: portable_path(folder, path)?, hash: hash_file(path)? };
         plan.terrain = Some(PlannedTerrain::new(file, heights.area(), heights.step()));
+        Ok(())
+    }
+
+    /// Finds the terrain of the script that gives the terrain of a plan its colours, and adds notes if there is none, or a choice.
+    fn add_colors(&self, plan: &mut TilePlan) -> Result<()> {
+        if plan.terrain.is_none() {
+            return Ok(());
+        }
+        let ground = TileBuilder::new(plan, &self.script.script, self.script.options()?)?.ground()?;
+        match ground.as_ref().map(|ground| ground.choices) {
+            None => plan.notes.push(
+                "terrain tiles have one colour: they take the covers of a terrain of the script, such as terrain({ covers = ..., visible = false }), and it has none"
+                    .to_owned(),
+            ),
+            Some(choices) if choices > 1 => plan.notes.push(format!(
+                "terrain tiles have the colours of the first of the {choices} terrains with covers or water in the script"
+            )),
+            Some(_) => {}
+        }
+        if let Some(terrain) = &mut plan.terrain {
+            terrain.is_colored = ground.is_some();
+        }
         Ok(())
     }
 

@@ -11,7 +11,8 @@ use burgeon_kit::{Color, Expectation, Field, Parameter, Table, Value, fields};
 use burgeon_scene::{Material, Texture};
 use burgeon_terrain::{Ground, GroundReader, Tile};
 
-use super::mask::{GroundPoint, Mask};
+use super::mask::{GroundPoint, Mask, PatchPlace};
+use super::object::Terrain;
 
 /// A layer that covers the ground.
 #[fields("cover")]
@@ -107,6 +108,35 @@ pub(crate) fn blend(spot: &GroundPoint<'_>, covers: &[GroundCover]) -> [f32; 3] 
         }
     }
     color
+}
+
+impl Terrain {
+    /// Returns the colour of the whole ground, in linear red, green and blue; `None` if covers or water change it.
+    pub fn plain_color(&self) -> Option<[f32; 3]> {
+        let has_one = self.options.covers.is_empty() && self.options.water.is_none();
+        let [red, green, blue, _] = self.options.color.0;
+        has_one.then_some([red, green, blue])
+    }
+
+    /// Returns true if the colour of the ground depends on its curvature.
+    pub fn is_colored_by_curvature(&self) -> bool {
+        self.options.covers.iter().any(|cover| cover.on.is_bent())
+    }
+
+    /// Returns the colour, in linear red, green and blue, that the covers and the standing water give to ground of a `height` (m), a
+    /// `slope` (degrees) and a `curvature` (1/m) at a place (m). Symbols of cells are those of this terrain.
+    pub fn ground_color(&self, place: DVec2, height: f64, slope: f64, curvature: f64) -> [f32; 3] {
+        if let Some(water) = self.options.water.as_ref().filter(|water| height < water.level) {
+            return water.tint(water.level - height);
+        }
+        if self.options.covers.is_empty() {
+            let [red, green, blue, _] = self.options.color.0;
+            return [red, green, blue];
+        }
+        let symbol = self.ground.symbol(place);
+        let place = PatchPlace::Flat(place);
+        blend(&GroundPoint { place, height, slope, curvature, latitude: 0.0, symbol }, &self.options.covers)
+    }
 }
 
 /// Returns half the size (m) of a texel of an image with `across` texels per side, on a tile of `size` (m): the

@@ -1,11 +1,13 @@
 //! Tiles: contents and manifests.
 
+mod ground_image;
 mod manifest;
 mod sweep;
 mod table;
 mod terrain;
 mod tile;
 
+pub use ground_image::{GroundColors, GroundSample, PlainGround};
 pub use manifest::{ManifestError, MissingFeature, TileFile, TileManifest};
 pub(crate) use manifest::{write_bytes, write_text};
 pub use sweep::sweep_temporary;

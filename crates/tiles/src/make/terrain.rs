@@ -11,6 +11,7 @@ use burgeon_scene::{Instance, Material, Mesh, Normal, Scene};
 use burgeon_spatial::{Crs, ReferenceFrame};
 use glam::{DAffine3, DVec2, DVec3, Vec2, Vec3, Vec4};
 
+use super::ground_image::{GroundColors, GroundImage};
 use super::tile::{BuiltTile, TileContent};
 use crate::plan::{PlannedTerrain, PlannedTile, TileGrid};
 
@@ -51,12 +52,18 @@ impl TerrainHeights {
         self.0.height(DVec2::new(x, y))
     }
 
-    /// Builds a tile: a grid of triangles over its square, as far as there are heights, with skirts at its sides. The error of the
-    /// content is the largest distance (m) from the next finer grid.
+    /// Builds a tile: a grid of triangles over its square, as far as there are heights, with skirts at its sides, and an image of
+    /// `colors`. The error of the content is the largest distance (m) from the next finer grid.
     ///
     /// The skirts of two tiles of any levels cover the gap between them: a skirt is as deep as the side is above the same side in any
     /// other level.
-    pub fn build(&self, terrain: &PlannedTerrain, tile: &PlannedTile, model: TileModelOptions) -> BuiltTile {
+    pub fn build(
+        &self,
+        terrain: &PlannedTerrain,
+        tile: &PlannedTile,
+        model: TileModelOptions,
+        colors: &dyn GroundColors,
+    ) -> BuiltTile {
         let [west, south, east, north] = TileGrid::bounds(tile.id);
         let spacing = PlannedTerrain::spacing(tile.id.level);
         let corner = DVec2::new(west, south);
@@ -70,9 +77,24 @@ impl TerrainHeights {
         let sides = [(0, south), (0, north), (1, west), (1, east)];
         let depth = sides.map(|(axis, at)| self.drop_at_side(terrain, tile, axis, at));
         let depth = depth.into_iter().fold(0.0, f64::max) + margin;
-        let scene = self.scene(&grid, depth);
-        let content = TileContent { scene, model, errors: vec![finer], ..TileContent::default() };
-        BuiltTile { features: Vec::new(), content: Ok(content) }
+        let image = colors.uniform().is_none().then(|| {
+            let step = PlannedTerrain::spacing(terrain.finest);
+            GroundImage::paint((corner, east - west, step), colors, |place| self.0.height(place))
+        });
+        let material = match &image {
+            Some(image) => image.material(1.0),
+            None => {
+                let [red, green, blue] = colors.uniform().unwrap_or_default();
+                Ok(Material { base_color: [red, green, blue, 1.0], roughness: 1.0, ..Material::default() })
+            }
+        };
+        let content = material.map(|material| TileContent {
+            scene: self.scene(&grid, depth, &material, image.as_ref()),
+            model,
+            errors: vec![finer],
+            ..TileContent::default()
+        });
+        BuiltTile { features: Vec::new(), content }
     }
 
     /// Returns the heights of a square of `points` by `points`, row by row from the south.
@@ -112,11 +134,16 @@ impl TerrainHeights {
         most
     }
 
-    /// Returns the scene of a grid with skirts of a depth (m).
-    fn scene(&self, grid: &SquareGrid, depth: f64) -> Scene {
+    /// Returns the scene of a grid with skirts of a depth (m). Points have texture coordinates in `image`.
+    fn scene(
+        &self,
+        grid: &SquareGrid,
+        depth: f64,
+        material: &Material,
+        image: Option<&GroundImage>,
+    ) -> Scene {
         let mut scene = Scene::default();
-        let ground = Material { base_color: [0.42, 0.44, 0.34, 1.0], roughness: 1.0, ..Material::default() };
-        let material = scene.material(&ground);
+        let material = scene.material(material);
         let mut mesh = Mesh::default();
         let part = mesh.part(material);
         let half = grid.spacing * f64::from(PlannedTerrain::SQUARES) / 2.0;
@@ -144,9 +171,9 @@ impl TerrainHeights {
             let height = grid.at(x, y).unwrap_or(0.0);
             let z = if row == 0 { height } else { height - depth };
             part.positions.push((place - middle).extend(z).as_vec3());
+            part.uvs.push(image.map_or(Vec2::ZERO, |image| image.tex_coord(place)));
             normals.push(self.normal(place, height, grid.spacing));
         }
-        part.uvs = vec![Vec2::ZERO; part.positions.len()];
         for four in normals.chunks(4) {
             let axes = [0, 1, 2].map(|axis| {
                 Vec4::from_array(std::array::from_fn(|it| four.get(it).map_or(0.0, |n| n[axis])))
@@ -269,6 +296,7 @@ impl MeshBuilder<'_> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::PlainGround;
     use super::*;
     use crate::plan::{PlannedFile, TileId};
     use burgeon_data::elevation::SampleGrid;
@@ -308,7 +336,8 @@ mod tests {
 
     /// Returns the points (m) of a tile, and the triangles that are not in skirts.
     fn surface(heights: &TerrainHeights, terrain: &PlannedTerrain, id: TileId) -> (Vec<[DVec3; 3]>, f64) {
-        let built = heights.build(terrain, &planned(id), TileModelOptions::default()).content.unwrap();
+        let built = heights.build(terrain, &planned(id), TileModelOptions::default(), &PlainGround);
+        let built = built.content.unwrap();
         let Some(instance) = built.scene.instances.first() else { return (Vec::new(), built.errors[0]) };
         let part = &built.scene.meshes[0].parts[0];
         let place =

@@ -199,12 +199,13 @@ impl TilePlan {
     }
 
     /// Returns the terrain tiles, in the order of the curve. Their hashes depend on the program, the file of the heights, the frame and
-    /// the choices for models.
+    /// the choices for models, and on the script with its arguments and files if they have its colours.
     pub fn terrain_tiles(&self) -> Result<Vec<PlannedTile>> {
         let Some(terrain) = &self.terrain else { return Ok(Vec::new()) };
         let common = (self.version, &self.program, &self.frame, terrain, &self.model);
         let geoid = self.files.iter().find(|file| Some(&file.path) == self.frame.geoid.as_ref());
-        let common = serde_json::to_string(&(common, geoid)).map_err(Error::internal)?;
+        let script = terrain.is_colored.then_some((&self.arguments, &self.files, &self.packages));
+        let common = serde_json::to_string(&(common, geoid, script)).map_err(Error::internal)?;
         let cost = f64::from(PlannedTerrain::SQUARES);
         let tile = |id: TileId| {
             let mut hasher = blake3::Hasher::new();

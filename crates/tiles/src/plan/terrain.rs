@@ -17,6 +17,9 @@ pub struct PlannedTerrain {
     pub coarsest: u32,
     /// Level of the smallest tiles.
     pub finest: u32,
+    /// Set if tiles have the colours of a terrain of the script.
+    #[serde(default)]
+    pub is_colored: bool,
 }
 
 impl PlannedTerrain {
@@ -44,7 +47,7 @@ impl PlannedTerrain {
         let finest = level(&|side| Self::spacing_of(side) <= step).unwrap_or(DEEPEST);
         // The first level with sides smaller than the area is one too many.
         let coarsest = level(&|side| side < wide).unwrap_or(DEEPEST).saturating_sub(1).min(finest);
-        Self { file, area, coarsest, finest }
+        Self { file, area, coarsest, finest, is_colored: false }
     }
 
     fn spacing_of(side: f64) -> f64 {
