@@ -30,6 +30,6 @@ pub use mesh::cuts::{GroundCut, GroundCuts};
 pub use mesh::ground_mesh::GroundMesh;
 pub use river::{Drainage, Dry};
 pub use tiles::ground::{Ground, GroundMap};
-pub use tiles::reader::{GroundReader, GroundSample};
+pub use tiles::reader::{GroundReader, GroundReading};
 pub use tiles::tile::{Tile, TilePlace};
 pub use tiles::view::{MOST_HEIGHTS, TileRing, View};

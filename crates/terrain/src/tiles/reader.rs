@@ -7,7 +7,7 @@ use super::tile::Tile;
 
 /// Ground at a point.
 #[derive(Debug, Clone, Copy)]
-pub struct GroundSample<'a> {
+pub struct GroundReading<'a> {
     /// Height (m), as [`Ground::height`] returns it.
     pub height: f64,
     /// Surface normal (a unit vector), as [`Ground::way_up`] returns it.
@@ -44,7 +44,7 @@ impl<'a> GroundReader<'a> {
     }
 
     /// Returns the ground at `place` (m); `None` outside the expanded area.
-    pub fn at(&mut self, place: DVec2) -> Option<GroundSample<'a>> {
+    pub fn at(&mut self, place: DVec2) -> Option<GroundReading<'a>> {
         let ground = self.ground;
         let (tile, cell, part) = ground.find(place)?;
         let corners = self.corners(tile, cell);
@@ -57,7 +57,7 @@ impl<'a> GroundReader<'a> {
         let [north_west, north_east, south_west, south_east] = corners.normals;
         let north = north_west.lerp(north_east, part.x);
         let south = south_west.lerp(south_east, part.x);
-        Some(GroundSample {
+        Some(GroundReading {
             height: ground.complete(tile, place, laid),
             normal: north.lerp(south, part.y).normalize(),
             symbol: ground.world().name(tile.level(), tile.symbol(cell.0, cell.1)),
