@@ -76,13 +76,13 @@ impl Shape {
             };
         }
         let (mut cause, mut unsound) = (String::new(), None);
-        for attempt in Attempt::ALL {
+        for attempt in SolidAttempt::ALL {
             let Some([one, two]) = attempt.solids(self, other) else { continue };
             match one.combine_once(&two, operation)? {
                 Ok(Some(solid)) if !solid.is_sound()? => unsound = unsound.or(Some(solid)),
                 Ok(solid) => return Ok(solid),
                 // The crate refuses empty results, too.
-                Err(_) if attempt == Attempt::Exact && self.leaves_nothing(other, operation)? => {
+                Err(_) if attempt == SolidAttempt::Exact && self.leaves_nothing(other, operation)? => {
                     return Ok(None);
                 }
                 Err(found) if cause.is_empty() => cause = found,
@@ -218,7 +218,7 @@ impl Shape {
 
 /// Way to compute an operation, after which the next one is tried if it fails.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Attempt {
+enum SolidAttempt {
     /// The solids as they are.
     Exact,
     /// Points that almost coincide are joined.
@@ -227,7 +227,7 @@ enum Attempt {
     Moved(f64),
 }
 
-impl Attempt {
+impl SolidAttempt {
     const ALL: [Self; 5] =
         [Self::Exact, Self::Welded, Self::Moved(1e-6), Self::Moved(-7e-6), Self::Moved(4e-5)];
 
