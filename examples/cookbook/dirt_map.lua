@@ -35,7 +35,11 @@ house:axiom(Mass(cuboid(13.5, 8.4, 9.6)))
 house:rule("Mass(s)", function(this, s: Shape)
   local top = s:faces("top")[1]
   return components(s, "faces", { { "side", Wall }, { "top", Draw } }),
-    Draw(top:molding({ { -0.4, -0.2 }, { 0.12, -0.2 }, { 0.3, 0.15 }, { 0.3, 0.35 }, { -0.4, 0.35 } }):material(cornice))
+    Draw(
+      top
+        :molding({ { -0.4, -0.2 }, { 0.12, -0.2 }, { 0.3, 0.15 }, { 0.3, 0.35 }, { -0.4, 0.35 } })
+        :material(cornice)
+    )
 end)
 
 -- Both projections belong to the whole wall. All parts of it keep them.
@@ -57,7 +61,11 @@ house:rule("Bay(face)", function(this, face: Shape)
 end)
 
 house:rule("Column(face)", function(this, face: Shape)
-  return split(face, "y", { { 0.75, Draw }, { 0.12, Stone, 0.1 }, { 1.6, Opening }, { 0.24, Stone, 0.04 }, { "~1", Draw } })
+  return split(
+    face,
+    "y",
+    { { 0.75, Draw }, { 0.12, Stone, 0.1 }, { 1.6, Opening }, { 0.24, Stone, 0.04 }, { "~1", Draw } }
+  )
 end)
 
 -- The stones are bricks no more, and have the dirt of the wall around them.
@@ -66,7 +74,11 @@ house:rule("Stone(face, depth)", function(this, face: Shape, depth: number)
 end)
 
 house:rule("Opening(face)", function(this, face: Shape)
-  return components(face:recess(0.24), "faces", { { "tag:recess.side", Draw }, { "tag:recess.back", Window } })
+  return components(
+    face:recess(0.24),
+    "faces",
+    { { "tag:recess.side", Draw }, { "tag:recess.back", Window } }
+  )
 end)
 
 house:rule("Window(face)", function(this, face: Shape)

@@ -128,3 +128,83 @@ fn a_script_whose_houses_stand_on_a_terrain_of_its_own_is_planned_and_made() {
     let checked = city.json(&["check", "out"]);
     assert_eq!(checked["features"], 60);
 }
+
+/// Returns the images of all terrain tiles with their paths, as red, green and blue.
+fn images(city: &City, folder: &str) -> Vec<(String, image::RgbImage)> {
+    let mut found = Vec::new();
+    let mut folders = vec![city.path(folder)];
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                folders.push(path);
+                continue;
+            }
+            if path.extension().is_none_or(|extension| extension != "glb") {
+                continue;
+            }
+            let file = gltf::Gltf::from_slice_without_validation(&std::fs::read(&path).unwrap()).unwrap();
+            let blob = file.blob.as_deref().unwrap_or_default();
+            for image in file.images() {
+                let gltf::image::Source::View { view, .. } = image.source() else { continue };
+                let bytes = &blob[view.offset()..view.offset() + view.length()];
+                let pixels = image::load_from_memory(bytes).unwrap().to_rgb8();
+                found.push((path.display().to_string(), pixels));
+            }
+        }
+    }
+    found.sort_by(|(a, _), (b, _)| a.cmp(b));
+    found
+}
+
+fn covered(color: &str) -> String {
+    format!(
+        "local Walls = module(\"Walls\")\n\
+         lsystem({{ object = terrain({{ size = 2000, levels = 4, visible = false,\n\
+         \x20 covers = {{ {{ color = \"{color}\" }}, {{ color = \"#808080\", on = {{ slope = {{ 1, 4 }} }} }} }} }}) }}):derive()\n\
+         local houses = lsystem({{ object = footprint }})\n\
+         houses:axiom(source(\"city.gpkg:buildings\"), function(feature) return footprint(feature.geometry), Walls() end)\n\
+         houses:interpret(\"Walls\", function(this) this:walls({{ height = 5 }}) end)\nhouses:derive(0)\n"
+    )
+}
+
+#[test]
+fn terrain_has_the_colours_of_the_covers_of_the_script_in_any_share() {
+    let city = City::new(60);
+    write_heights(&city, 0.0);
+    let said = |planned: &Value| planned["warnings"].to_string().contains("terrain tiles have one colour");
+    assert!(said(&plan(&city, "plain")));
+    city.json(&["make", "plain"]);
+    assert!(images(&city, "plain").is_empty());
+
+    std::fs::write(city.path("city.lua"), covered("#407030")).unwrap();
+    let planned = plan(&city, "out");
+    let tiles = planned["terrain"].as_u64().unwrap();
+    assert!(!said(&planned), "{planned}");
+    for share in ["2/2", "1/2"] {
+        city.json(&["make", "out", "--share", share]);
+    }
+    city.json(&["join", "out"]);
+    city.json(&["check", "out"]);
+    let found = images(&city, "out");
+    assert_eq!(found.len() as u64, tiles);
+    // The green of flat ground and the grey of slopes, or their mean.
+    let is_green = |pixel: &image::Rgb<u8>| pixel[1] > pixel[0] + 20;
+    let is_grey = |pixel: &image::Rgb<u8>| pixel[1].abs_diff(pixel[0]) < 8;
+    let mixed = found.iter().filter(|(_, image)| image.pixels().any(is_green) && image.pixels().any(is_grey));
+    assert!(mixed.count() * 2 > found.len());
+
+    plan(&city, "other");
+    city.json(&["make", "other", "--threads", "1"]);
+    city.json(&["join", "other"]);
+    city.assert_same("out", "other");
+
+    // Other colours make the tiles again.
+    std::fs::write(city.path("city.lua"), covered("#c03030")).unwrap();
+    plan(&city, "out");
+    let made = city.json(&["make", "out"]);
+    assert!(made["made"].as_u64().unwrap() >= tiles, "{made}");
+    assert!(
+        images(&city, "out").iter().any(|(_, image)| image.pixels().any(|pixel| pixel[0] > pixel[1] + 50))
+    );
+}

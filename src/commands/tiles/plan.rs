@@ -313,19 +313,24 @@ impl PlanCommand {
         if plan.terrain.is_none() {
             return Ok(());
         }
-        let ground = TileBuilder::new(plan, &self.script.script, self.script.options()?)?.ground()?;
-        match ground.as_ref().map(|ground| ground.choices) {
-            None => plan.notes.push(
+        let ground = TileBuilder::new(plan, &self.script.script, self.script.options()?)?.ground();
+        match ground.as_ref().map(|ground| ground.as_ref().map(|ground| ground.choices)) {
+            // The tiles whose features the script cannot make name the error, too.
+            Err(error) => plan.notes.push(format!(
+                "terrain tiles have one colour, because the script fails with the features of the first tile: {}",
+                error.message()
+            )),
+            Ok(None) => plan.notes.push(
                 "terrain tiles have one colour: they take the covers of a terrain of the script, such as terrain({ covers = ..., visible = false }), and it has none"
                     .to_owned(),
             ),
-            Some(choices) if choices > 1 => plan.notes.push(format!(
+            Ok(Some(choices)) if choices > 1 => plan.notes.push(format!(
                 "terrain tiles have the colours of the first of the {choices} terrains with covers or water in the script"
             )),
-            Some(_) => {}
+            Ok(Some(_)) => {}
         }
         if let Some(terrain) = &mut plan.terrain {
-            terrain.is_colored = ground.is_some();
+            terrain.is_colored = matches!(ground, Ok(Some(_)));
         }
         Ok(())
     }

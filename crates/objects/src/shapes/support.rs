@@ -84,15 +84,28 @@ impl ShapeObject {
         Ok(self.parts(copies))
     }
 
-    /// Combines two solids; keeps this one with a warning if that fails.
+    /// Combines two solids; keeps this one with a warning if that fails. Warns if the other one had to be moved.
     pub(super) fn combine(
         &self,
         method: &str,
         other: &Self,
         operation: SolidOperation,
     ) -> Result<Option<Self>> {
-        match self.shape.combine(&other.shape, operation) {
-            Ok(solid) => Ok(solid.map(|solid| self.with_shape(solid))),
+        match self.shape.combine_with_shift(&other.shape, operation) {
+            Ok((solid, shift)) => {
+                if shift > 0.0 {
+                    let text = format!(
+                        "the set operation fails numerically, and succeeded with the second solid moved by {:.1e} m",
+                        shift
+                    );
+                    warn(
+                        method,
+                        &text,
+                        "let faces that almost coincide coincide, or move one of the solids by a millimetre",
+                    );
+                }
+                Ok(solid.map(|solid| self.with_shape(solid)))
+            }
             Err(error) if *error.kind() != ErrorKind::Geometry => Err(error),
             Err(error) => {
                 let text = format!("{}; the first shape is kept", error.message());

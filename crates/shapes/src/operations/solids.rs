@@ -44,7 +44,8 @@ impl Shape {
     ///
     /// Faces keep their tags, and get "bool.a" or "bool.b" by the solid that they come from. Coplanar parts of a face
     /// are joined, unless a face would be too narrow. If the operation fails numerically, it is tried with points joined that
-    /// almost coincide, and with the second solid moved by up to 40 millionths of its size. Fails if a shape is open, or if all of that fails.
+    /// almost coincide, and with the second solid moved by up to 40 millionths of its size. Fails if a shape is open, or if all of
+    /// that fails.
     ///
     /// Method: the crate `boolmesh`, after E. Lalish's Manifold.
     ///
@@ -59,6 +60,12 @@ impl Shape {
     /// # Ok::<(), burgeon_base::Error>(())
     /// ```
     pub fn combine(&self, other: &Self, operation: SolidOperation) -> Result<Option<Self>> {
+        self.combine_with_shift(other, operation).map(|(solid, _)| solid)
+    }
+
+    /// Returns the solid of [`combine`](Self::combine), and the distance (m) by which the second solid was moved; 0 unless the
+    /// operation fails numerically without it.
+    pub fn combine_with_shift(&self, other: &Self, operation: SolidOperation) -> Result<(Option<Self>, f64)> {
         for shape in [self, other] {
             if !shape.is_closed() {
                 let open = shape.mesh().open_edges().count();
@@ -69,21 +76,23 @@ impl Shape {
         if self.is_apart(other) {
             let [one, two] = [(self, "bool.a"), (other, "bool.b")]
                 .map(|(shape, tag)| shape.with_styles(|style| FaceStyle::with_automatic_tag(style, tag)));
-            return match operation {
-                SolidOperation::Union => Self::join(&[&one, &two]),
-                SolidOperation::Difference => Ok(Some(one)),
-                SolidOperation::Intersection => Ok(None),
+            let solid = match operation {
+                SolidOperation::Union => Self::join(&[&one, &two])?,
+                SolidOperation::Difference => Some(one),
+                SolidOperation::Intersection => None,
             };
+            return Ok((solid, 0.0));
         }
         let (mut cause, mut unsound) = (String::new(), None);
         for attempt in SolidAttempt::ALL {
             let Some([one, two]) = attempt.solids(self, other) else { continue };
+            let shift = attempt.shift(other).length();
             match one.combine_once(&two, operation)? {
-                Ok(Some(solid)) if !solid.is_sound()? => unsound = unsound.or(Some(solid)),
-                Ok(solid) => return Ok(solid),
+                Ok(Some(solid)) if !solid.is_sound()? => unsound = unsound.or(Some((Some(solid), shift))),
+                Ok(solid) => return Ok((solid, shift)),
                 // The crate refuses empty results, too.
                 Err(_) if attempt == SolidAttempt::Exact && self.leaves_nothing(other, operation)? => {
-                    return Ok(None);
+                    return Ok((None, 0.0));
                 }
                 Err(found) if cause.is_empty() => cause = found,
                 Err(_) => {}
@@ -91,7 +100,7 @@ impl Shape {
         }
         // A closed solid is better than none, even if it can hardly be combined with others.
         match unsound {
-            Some(solid) => Ok(Some(solid)),
+            Some(found) => Ok(found),
             None => Err(Error::geometry(format!("the set operation of two solids failed: {cause}"))
                 .help("move one of the solids by a millimetre, or simplify it")),
         }
@@ -240,15 +249,20 @@ impl SolidAttempt {
                 let solids = welded();
                 solids.iter().any(|shape| matches!(shape, Cow::Owned(_))).then_some(solids)
             }
-            Self::Moved(fraction) => {
+            Self::Moved(_) => {
                 let [one, two] = welded();
-                let [low, high] = two.bounds();
-                let step = (high - low).max_element() * fraction;
-                // No plane of a usual model has this direction.
-                let moved = two.translate(DVec3::new(0.531, 0.677, 0.509) * step);
+                let moved = two.translate(self.shift(&two));
                 Some([one, Cow::Owned(moved)])
             }
         }
+    }
+
+    /// Returns the vector (m) by which the second solid is moved.
+    fn shift(self, two: &Shape) -> DVec3 {
+        let Self::Moved(fraction) = self else { return DVec3::ZERO };
+        let [low, high] = two.bounds();
+        // No plane of a usual model has this direction.
+        DVec3::new(0.531, 0.677, 0.509) * ((high - low).max_element() * fraction)
     }
 }
 
