@@ -161,6 +161,7 @@ fn covered(color: &str) -> String {
     format!(
         "local Walls = module(\"Walls\")\n\
          lsystem({{ object = terrain({{ size = 2000, levels = 4, visible = false,\n\
+         \x20 rules = {{ A = {{ \"A\", \"A\", \"A\", \"A\", change = {{ 0, 0, 0, 0 }}, decay = 0.5 }} }},\n\
          \x20 covers = {{ {{ color = \"{color}\" }}, {{ color = \"#808080\", on = {{ slope = {{ 1, 4 }} }} }} }} }}) }}):derive()\n\
          local houses = lsystem({{ object = footprint }})\n\
          houses:axiom(source(\"city.gpkg:buildings\"), function(feature) return footprint(feature.geometry), Walls() end)\n\
