@@ -108,7 +108,7 @@ impl<'a> FacadeLayout<'a> {
         match &inner.rule {
             WallRule::Panel { decoration, fixture, background, meaning } => {
                 if *background {
-                    let (material, stretched) = match decoration {
+                    let (material, stretched) = match decoration.as_deref() {
                         Some(decoration) => (Some(decoration), true),
                         None => (material, false),
                     };

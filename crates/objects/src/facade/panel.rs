@@ -56,6 +56,7 @@ fn make(options: PanelOptions) -> Result<Wall> {
     let sizes = room.map(|room| Sizes::between(room, f64::INFINITY));
     let targets = [0, 1].map(|side| extent.map(|extent| extent[side]));
     let meaning = meaning.unwrap_or(SurfaceMeaning::Wall);
+    let decoration = decoration.map(Box::new);
     let rule = WallRule::Panel { decoration, fixture, background: options.background, meaning };
     Wall::new(kind(), rule, sizes, targets, [options.width, options.height], options.material.as_ref())
 }

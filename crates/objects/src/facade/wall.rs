@@ -35,7 +35,7 @@ const DEEPEST: usize = 100;
 /// The rule of a wall and its parts.
 pub(super) enum WallRule {
     Panel {
-        decoration: Option<Material>,
+        decoration: Option<Box<Material>>,
         fixture: Option<Fixture>,
         background: bool,
         meaning: SurfaceMeaning,

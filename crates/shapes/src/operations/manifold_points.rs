@@ -33,7 +33,7 @@ pub(super) fn separate_surfaces(points: &mut Vec<DVec3>, corners: &mut Vec<usize
     let mut sets = crate::mesh::FaceSets::new(corners.len());
     let mut partners: Vec<usize> = (0..corners.len()).collect();
     let next = |half: usize| if half % 3 == 2 { half - 2 } else { half + 1 };
-    for half in 0..corners.len() {
+    for (half, partner_of_half) in partners.iter_mut().enumerate() {
         let [from, to] = ends(corners, half);
         let Some(others) = halves.get(&[to, from]) else { continue };
         let partner = match others.as_slice() {
@@ -54,7 +54,7 @@ pub(super) fn separate_surfaces(points: &mut Vec<DVec3>, corners: &mut Vec<usize
                 nearest.unwrap_or(half)
             }
         };
-        partners[half] = partner;
+        *partner_of_half = partner;
         sets.join(half, next(partner));
         sets.join(next(half), partner);
     }
