@@ -1,4 +1,4 @@
-//! What a render shows of the model.
+//! Visibility of the model in a render.
 
 /// Part of a model that a render shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -242,15 +242,15 @@ impl SolidAttempt {
 
     /// Returns the solids to combine; `None` if they are those of the attempt before.
     fn solids<'a>(self, one: &'a Shape, two: &'a Shape) -> Option<[Cow<'a, Shape>; 2]> {
-        let welded = || [one, two].map(|shape| welded(shape).map_or(Cow::Borrowed(shape), Cow::Owned));
+        let weld_both = || [one, two].map(|shape| weld_solid(shape).map_or(Cow::Borrowed(shape), Cow::Owned));
         match self {
             Self::Exact => Some([one, two].map(Cow::Borrowed)),
             Self::Welded => {
-                let solids = welded();
+                let solids = weld_both();
                 solids.iter().any(|shape| matches!(shape, Cow::Owned(_))).then_some(solids)
             }
             Self::Moved(_) => {
-                let [one, two] = welded();
+                let [one, two] = weld_both();
                 let moved = two.translate(self.shift(&two));
                 Some([one, Cow::Owned(moved)])
             }
@@ -268,7 +268,7 @@ impl SolidAttempt {
 
 /// Returns a solid whose points that almost coincide are joined, without pairs of opposite faces; `None` if it is the same or would
 /// be open.
-fn welded(shape: &Shape) -> Option<Shape> {
+fn weld_solid(shape: &Shape) -> Option<Shape> {
     let crate::ShapeBody::Mesh(mesh) = &shape.body else { return None };
     let mut joined = weld(mesh, NEAR);
     remove_opposite_faces(&mut joined);

@@ -34,9 +34,12 @@ pub trait GroundColors: Sync {
 /// Colours of a terrain that no script describes.
 pub struct PlainGround;
 
+/// Colour of a terrain that no script describes, in linear red, green and blue.
+const PLAIN: [f32; 3] = [0.42, 0.44, 0.34];
+
 impl GroundColors for PlainGround {
     fn uniform(&self) -> Option<[f32; 3]> {
-        Some([0.42, 0.44, 0.34])
+        Some(PLAIN)
     }
 
     fn is_bent(&self) -> bool {
@@ -44,7 +47,7 @@ impl GroundColors for PlainGround {
     }
 
     fn color(&self, _sample: &GroundSample) -> [f32; 3] {
-        [0.42, 0.44, 0.34]
+        PLAIN
     }
 }
 
