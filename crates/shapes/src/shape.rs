@@ -28,7 +28,7 @@ pub struct Shape {
     /// Geometry.
     pub body: ShapeBody,
     /// Face of a solid that this face or part of a face was.
-    pub(crate) trim: Option<Arc<TrimFace>>,
+    pub(crate) trim: Option<TrimFace>,
 }
 
 /// Smallest extent (m) along an axis that is not 0.

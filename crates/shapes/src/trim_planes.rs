@@ -31,6 +31,8 @@ pub(crate) enum TrimSource {
     Recess(Scope),
     /// A mesh, and the planes of each face, made by the first question.
     Mesh(Arc<PolygonMesh>, OnceLock<Vec<Vec<TrimPlane>>>),
+    /// Another one, moved since the face was taken from it.
+    Moved(Arc<TrimSource>, DAffine3),
 }
 
 /// Face of a solid whose neighbours trim solids on it.
@@ -38,50 +40,63 @@ pub(crate) enum TrimSource {
 pub(crate) struct TrimFace {
     pub source: Arc<TrimSource>,
     pub face: u32,
-    /// Movement since the face was taken from the solid.
-    pub moved: Option<Box<DAffine3>>,
 }
 
 impl TrimFace {
     /// Returns the face after another movement.
     pub(crate) fn transform(&self, frame: &DAffine3) -> Self {
-        let moved = self.moved.as_ref().map_or(*frame, |moved| *frame * **moved);
-        Self { moved: Some(Box::new(moved)), ..self.clone() }
+        let source = match &*self.source {
+            TrimSource::Moved(source, moved) => TrimSource::Moved(Arc::clone(source), *frame * *moved),
+            _ => TrimSource::Moved(Arc::clone(&self.source), *frame),
+        };
+        Self { source: Arc::new(source), ..*self }
     }
 
     /// Returns true if both have the same planes.
     pub(crate) fn is_same(&self, other: &Self) -> bool {
-        let same_source = match (&*self.source, &*other.source) {
-            (TrimSource::Box(one), TrimSource::Box(two))
-            | (TrimSource::Recess(one), TrimSource::Recess(two)) => one == two,
-            (TrimSource::Mesh(one, _), TrimSource::Mesh(two, _)) => Arc::ptr_eq(one, two),
-            _ => false,
-        };
-        same_source && self.face == other.face && self.moved == other.moved
+        self.face == other.face && self.source.is_same(&other.source)
     }
 
     /// Returns the planes of the face, in the order of its edges; none at open edges and to coplanar neighbours.
     pub(crate) fn planes(&self) -> Vec<TrimPlane> {
-        let number = self.face as usize;
-        let own = match &*self.source {
-            TrimSource::Box(scope) => of_face(&ShapeBody::Box(None), scope, number),
-            TrimSource::Recess(scope) => of_face(&ShapeBody::Recess(Arc::default()), scope, number),
-            TrimSource::Mesh(mesh, planes) => {
-                planes.get_or_init(|| of_mesh(mesh, None)).get(number).cloned().unwrap_or_default()
+        self.source.planes(self.face as usize)
+    }
+}
+
+impl TrimSource {
+    fn is_same(&self, other: &Self) -> bool {
+        std::ptr::eq(self, other)
+            || match (self, other) {
+                (Self::Box(one), Self::Box(two)) | (Self::Recess(one), Self::Recess(two)) => one == two,
+                (Self::Mesh(one, _), Self::Mesh(two, _)) => Arc::ptr_eq(one, two),
+                (Self::Moved(one, by), Self::Moved(two, by_two)) => by == by_two && one.is_same(two),
+                _ => false,
             }
-        };
-        let Some(frame) = &self.moved else { return own };
-        let moved = |trim: TrimPlane| {
-            let ends = trim.ends.map(|end| frame.transform_point3(end));
-            // A movement can also mirror and stretch: normals go by the inverse of the transposed matrix.
-            let normal = (frame.matrix3.inverse().transpose() * trim.plane.normal).normalize_or_zero();
-            (normal != DVec3::ZERO).then(|| TrimPlane {
-                plane: CutPlane::through(ends[0], normal),
-                ends,
-                ..trim
-            })
-        };
-        own.into_iter().filter_map(moved).collect()
+    }
+
+    /// Returns the planes of the face with this number.
+    fn planes(&self, face: usize) -> Vec<TrimPlane> {
+        match self {
+            Self::Box(scope) => of_face(&ShapeBody::Box(None), scope, face),
+            Self::Recess(scope) => of_face(&ShapeBody::Recess(Arc::default()), scope, face),
+            Self::Mesh(mesh, planes) => {
+                planes.get_or_init(|| of_mesh(mesh, None)).get(face).cloned().unwrap_or_default()
+            }
+            Self::Moved(source, frame) => {
+                let planes = source.planes(face).into_iter();
+                planes.filter_map(|plane| plane.transform(frame)).collect()
+            }
+        }
+    }
+}
+
+impl TrimPlane {
+    /// Returns the plane after a movement; `None` if it has no direction then.
+    fn transform(self, frame: &DAffine3) -> Option<Self> {
+        let ends = self.ends.map(|end| frame.transform_point3(end));
+        // A movement can also mirror and stretch: normals go by the inverse of the transposed matrix.
+        let normal = (frame.matrix3.inverse().transpose() * self.plane.normal).normalize_or_zero();
+        (normal != DVec3::ZERO).then(|| Self { plane: CutPlane::through(ends[0], normal), ends, ..self })
     }
 }
 

@@ -171,8 +171,8 @@ impl<'a> Body<'a> {
         index as u32
     }
 
-    /// Starts a new batch of views if the current one has many corners. Corners are computed again when they are
-    /// written, and stay in memory while their batch is written.
+    /// Starts a new batch of views if the current one has many corners. The corners of the first batch stay in memory. Others
+    /// are computed again when they are written, and stay in memory while their batch is written.
     pub(super) fn begin_mesh(&mut self) {
         if self.corners > BATCH {
             self.batches.push(Vec::new());
@@ -186,6 +186,9 @@ impl<'a> Body<'a> {
             self.batches.push(Vec::new());
         }
         self.corners += corners.range(false).count;
+        if self.batches.len() > 1 {
+            corners.release();
+        }
         if let Some(batch) = self.batches.last_mut() {
             batch.push(Arc::clone(corners));
         }

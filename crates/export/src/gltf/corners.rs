@@ -20,11 +20,14 @@ const NONE: u32 = u32::MAX;
 /// Maximum number of vertices of parts that are processed at a time; bounds the memory.
 pub(super) const MOST: usize = 1 << 22;
 
+/// Number of triangles whose corners are looked up together.
+const TOGETHER: usize = 64;
+
 /// Minimum thickness (m) of a triangle with a reliable normal. Thinner triangles are not visible.
-const THIN: f32 = 1e-3;
+const THIN: f64 = 1e-3;
 
 /// Minimum cosine of the angle between a normal and the normal of its face (1 degree).
-const FLAT: f32 = 0.999_85;
+const FLAT: f64 = 0.999_85;
 
 /// Selected faces of a part.
 #[derive(Debug, Clone, Copy)]
@@ -90,10 +93,11 @@ fn is_flat(part: &Part, corners: [u32; 3]) -> bool {
     }
     let [a, b, c] = corners.map(|corner| part.positions[corner as usize]);
     let (ab, ac) = (b - a, c - a);
-    let across = ab.cross(ac);
-    let area = across.length();
-    let longest = ab.length_squared().max(ac.length_squared()).max((c - b).length_squared()).sqrt();
-    across.dot(normal.vector()) >= FLAT * area || area < THIN * longest
+    let across = ab.cross(ac).as_dvec3();
+    let longest = ab.length_squared().max(ac.length_squared()).max((c - b).length_squared());
+    // Squares instead of lengths, since this is asked of each triangle.
+    let (along, area) = (across.dot(normal.vector().as_dvec3()), across.length_squared());
+    (along >= 0.0 && along * along >= FLAT * FLAT * area) || area < THIN * THIN * f64::from(longest)
 }
 
 impl<'a> PartFaces<'a> {
@@ -110,16 +114,19 @@ impl<'a> PartFaces<'a> {
 
 impl<'a> FaceCorners<'a> {
     /// Computes the corners of `faces`, in which faces with texture coordinates come first. All of them are shaded, or
-    /// none is.
-    pub(super) fn of(faces: Vec<PartFaces<'a>>) -> Self {
-        let list = CornerList::of(&faces);
+    /// none is. The corners stay in memory until [`release`](Self::release).
+    ///
+    /// Returns `None` if there are more than `most` corners.
+    pub(super) fn of(faces: Vec<PartFaces<'a>>, most: usize) -> Option<Self> {
+        let list = CornerList::of(&faces, most)?;
         let range = |positions: &[Vec3]| CornerRange {
             count: positions.len(),
             low: positions.iter().fold(Vec3::INFINITY, |low, at| low.min(*at)),
             high: positions.iter().fold(Vec3::NEG_INFINITY, |high, at| high.max(*at)),
         };
         let textured = range(&list.positions[..list.tex_coords.len()]);
-        Self { faces, textured, all: range(&list.positions), list: Mutex::default() }
+        let all = range(&list.positions);
+        Some(Self { faces, textured, all, list: Mutex::new(Some(Arc::new(list))) })
     }
 
     /// Returns true if the corners have normals.
@@ -150,7 +157,8 @@ impl<'a> FaceCorners<'a> {
     /// Returns the corners, computing them if necessary.
     pub(super) fn list(&self) -> Arc<CornerList> {
         let mut list = self.list.lock().recover();
-        Arc::clone(list.get_or_insert_with(|| Arc::new(CornerList::of(&self.faces))))
+        let compute = || Arc::new(CornerList::of(&self.faces, usize::MAX).unwrap_or_default());
+        Arc::clone(list.get_or_insert_with(compute))
     }
 
     /// Frees the memory of the corners.
@@ -160,7 +168,8 @@ impl<'a> FaceCorners<'a> {
 }
 
 impl CornerList {
-    fn of(all: &[PartFaces<'_>]) -> Self {
+    /// Computes the corners of the faces; `None` if there are more than `most`.
+    fn of(all: &[PartFaces<'_>], most: usize) -> Option<Self> {
         let vertices: usize = all.iter().map(|faces| faces.part.positions.len()).sum();
         // Hash table of corners by position; at most two thirds of it are used.
         let mut places = vec![NONE; (vertices + vertices / 2 + 1).next_power_of_two()];
@@ -168,28 +177,55 @@ impl CornerList {
         for faces in all {
             let PartFaces { part, texture, which } = *faces;
             let mut of = vec![NONE; part.positions.len()];
-            for corner in faces.triangles(0..usize::MAX).flatten() {
-                let vertex = corner as usize;
-                if of[vertex] == NONE {
-                    let uv = texture.map(|map| map.of(part.uvs[vertex]));
-                    let normal = (which == FaceChoice::Shaded).then(|| part.normals[vertex]);
-                    of[vertex] = list.corner(y_up(part.positions[vertex]), uv, normal, &mut places);
+            let mut triangles = faces.triangles(0..usize::MAX);
+            let mut next: Vec<(usize, usize)> = Vec::with_capacity(3 * TOGETHER);
+            loop {
+                next.clear();
+                for vertex in triangles.by_ref().take(TOGETHER).flatten().map(|corner| corner as usize) {
+                    next.push((vertex, place_of(y_up(part.positions[vertex]), places.len())));
+                }
+                if next.is_empty() {
+                    break;
+                }
+                list.load(&next, &places);
+                for (vertex, place) in &next {
+                    if of[*vertex] == NONE {
+                        let uv = texture.map(|map| map.of(part.uvs[*vertex]));
+                        let normal = (which == FaceChoice::Shaded).then(|| part.normals[*vertex]);
+                        of[*vertex] =
+                            list.corner((y_up(part.positions[*vertex]), *place), uv, normal, &mut places);
+                    }
+                }
+                if list.positions.len() > most {
+                    return None;
                 }
             }
             list.of.push(of);
         }
-        list
+        Some(list)
     }
 
-    /// Returns the corner at `at` with these texture coordinates, or with any if `None`, and with this normal. Adds the
-    /// corner if it does not exist.
+    /// Reads the table at these places and the corners there, so that they are in the processor's cache. It waits for many
+    /// of them at a time; the search for a corner waits for each.
+    fn load(&self, next: &[(usize, usize)], places: &[u32]) {
+        let mut known = [NONE; 3 * TOGETHER];
+        for ((_, place), known) in next.iter().zip(&mut known) {
+            *known = places[*place];
+        }
+        let read = |sum: f32, known: &u32| sum + self.positions.get(*known as usize).map_or(0.0, |at| at.x);
+        std::hint::black_box(known.iter().fold(0.0, read));
+    }
+
+    /// Returns the corner at a position, whose first place in the table is given, with these texture coordinates, or with any
+    /// if `None`, and with this normal. Adds the corner if it does not exist.
     #[inline]
-    fn corner(&mut self, at: Vec3, uv: Option<[f32; 2]>, normal: Option<Normal>, places: &mut [u32]) -> u32 {
-        // The highest bits of the product depend on all bits of the coordinates.
-        let mix = |sum: u64, number: f32| {
-            (sum.rotate_left(23) ^ u64::from(cast::<f32, u32>(number))).wrapping_mul(0x9E37_79B9_7F4A_7C15)
-        };
-        let mut place = (at.to_array().into_iter().fold(0, mix) >> 32) as usize & (places.len() - 1);
+    fn corner(
+        &mut self,
+        (at, mut place): (Vec3, usize),
+        uv: Option<[f32; 2]>,
+        normal: Option<Normal>,
+        places: &mut [u32],
+    ) -> u32 {
         while places[place] != NONE {
             let known = places[place] as usize;
             let alike = |uv: [f32; 2]| self.tex_coords[known].map(f32::to_bits) == uv.map(f32::to_bits);
@@ -209,6 +245,15 @@ impl CornerList {
     }
 }
 
+/// Returns the first place of a position in a table of this length, a power of two.
+fn place_of(at: Vec3, length: usize) -> usize {
+    // The highest bits of the product depend on all bits of the coordinates.
+    let mix = |sum: u64, number: f32| {
+        (sum.rotate_left(23) ^ u64::from(cast::<f32, u32>(number))).wrapping_mul(0x9E37_79B9_7F4A_7C15)
+    };
+    (at.to_array().into_iter().fold(0, mix) >> 32) as usize & (length - 1)
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::super::samples;
@@ -226,7 +271,8 @@ mod tests {
         let scene = samples::boxes(1);
         let part = &scene.meshes[0].parts[0];
         assert_eq!((flat_faces(part), part.positions.len()), (12, 24));
-        assert_eq!(FaceCorners::of(vec![faces(part, FaceChoice::All)]).range(false).count, 8);
+        assert_eq!(FaceCorners::of(vec![faces(part, FaceChoice::All)], 8).unwrap().range(false).count, 8);
+        assert!(FaceCorners::of(vec![faces(part, FaceChoice::All)], 7).is_none());
         assert_eq!(flat_faces(&samples::hill(3).meshes[0].parts[0]), 0);
     }
 
@@ -239,7 +285,7 @@ mod tests {
         assert_eq!(flat_faces(&part), 10);
         let (flat, shaded) = (faces(&part, FaceChoice::Flat), faces(&part, FaceChoice::Shaded));
         assert_eq!((flat.triangles(0..99).count(), shaded.triangles(0..99).count()), (10, 2));
-        let corners = FaceCorners::of(vec![shaded]);
+        let corners = FaceCorners::of(vec![shaded], 9).unwrap();
         let list = corners.list();
         assert!(corners.are_shaded() && list.positions.len() == 4);
         assert!(list.normals.iter().all(|normal| *normal == part.normals[0]));
@@ -273,7 +319,7 @@ mod tests {
             let which = FaceChoice::All;
             let corners = FaceCorners::of(parts.iter().map(|(part, texture)| {
                 PartFaces { part, texture: *texture, which }
-            }).collect());
+            }).collect(), usize::MAX).unwrap();
             let list = corners.list();
             prop_assert_eq!(corners.range(true).count, list.tex_coords.len());
             for ((part, texture), of) in parts.iter().zip(&list.of) {

@@ -192,16 +192,23 @@ fn share_corners(mut parts: Vec<&mut PartView<'_>>) {
     parts.sort_by_key(|shown| shown.texture.is_none());
     let vertices: usize = parts.iter().map(|shown| shown.part.positions.len()).sum();
     let faces = parts.iter().filter_map(|shown| shown.faces()).collect();
-    let together = (vertices <= corners::MOST).then(|| FaceCorners::of(faces));
-    match together.filter(|together| together.range(false).count <= SHORT).map(Arc::new) {
+    let together = (vertices <= corners::MOST).then(|| FaceCorners::of(faces, SHORT)).flatten();
+    match together.map(Arc::new) {
         Some(together) => {
             for (number, shown) in parts.into_iter().enumerate() {
                 shown.corners = Some((Arc::clone(&together), number));
             }
         }
         None => {
+            let mut kept = 0;
             for shown in parts {
-                shown.corners = shown.faces().map(|faces| (Arc::new(FaceCorners::of(vec![faces])), 0));
+                let corners = shown.faces().and_then(|faces| FaceCorners::of(vec![faces], usize::MAX));
+                // Corners beyond these are computed again when they are written.
+                kept += shown.part.positions.len();
+                if let Some(corners) = corners.as_ref().filter(|_| kept > corners::MOST) {
+                    corners.release();
+                }
+                shown.corners = corners.map(|corners| (Arc::new(corners), 0));
             }
         }
     }

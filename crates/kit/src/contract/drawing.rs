@@ -31,7 +31,9 @@ use burgeon_scene::{Instance, Material, Mesh, Normal, Part, Scene, SurfaceMeanin
 pub struct Drawing {
     /// Position in the scene (m).
     origin: DVec3,
-    materials: Vec<Material>,
+    materials: Vec<Arc<Material>>,
+    /// Materials and colours that were last asked for, and the indices of their parts: a few that alternate.
+    looks: Vec<(Arc<Material>, Option<[f32; 4]>, usize)>,
     parts: Vec<Part>,
     /// Placed models with their surface meaning and frames. Each pair of model and meaning occurs once.
     placed: Vec<(Arc<Model>, Option<SurfaceMeaning>, Vec<DAffine3>)>,
@@ -59,6 +61,9 @@ pub struct DrawingMark {
     expected: usize,
 }
 
+/// Maximum number of materials and colours that a drawing finds without a comparison of materials.
+const MOST_LOOKS: usize = 8;
+
 impl Drawing {
     /// Creates an empty drawing whose origin is at `origin` (m).
     pub fn at(origin: DVec3) -> Self {
@@ -83,6 +88,7 @@ impl Drawing {
         }
         self.nearest.take();
         self.materials.clear();
+        self.looks.clear();
         self.placed.clear();
         (self.instances, self.expected) = (0, 0);
         for mut part in self.parts.drain(..).rev() {
@@ -109,6 +115,7 @@ impl Drawing {
     pub fn rewind(&mut self, mark: &DrawingMark) {
         self.nearest.take();
         self.materials.truncate(mark.parts.len());
+        self.looks.clear();
         for mut part in self.parts.drain(mark.parts.len()..).rev() {
             part.clear();
             self.spare.push(part);
@@ -125,20 +132,49 @@ impl Drawing {
 
     /// Returns the index of the part with this material, and adds the part if it is missing.
     pub fn material(&mut self, material: &Material) -> usize {
-        // Most materials differ in colour, which is the fastest comparison.
-        let same = |known: &Material| known.base_color == material.base_color && known == material;
-        if let Some(index) = self.materials.iter().position(same) {
-            return index;
+        match self.find_material(material) {
+            Some(index) => index,
+            None => self.add_material(Arc::new(material.clone())),
         }
-        self.materials.push(material.clone());
+    }
+
+    /// Returns the index of the part with this material, if there is one.
+    fn find_material(&self, material: &Material) -> Option<usize> {
+        // Most materials differ in colour, which is the fastest comparison.
+        let same = |known: &Arc<Material>| known.base_color == material.base_color && **known == *material;
+        self.materials.iter().position(same)
+    }
+
+    /// Adds a part with this material, and returns its index.
+    fn add_material(&mut self, material: Arc<Material>) -> usize {
+        self.materials.push(material);
         let spare = self.spare.pop().unwrap_or_default();
         self.parts.push(Part { material: self.materials.len() - 1, ..spare });
         self.materials.len() - 1
     }
 
+    /// Returns the index of the part with this material, in another colour if one is given, and adds the part if it is missing.
+    /// Faster than [`material`](Self::material) for the same few materials again and again.
+    pub fn look(&mut self, material: &Arc<Material>, color: Option<[f32; 4]>) -> usize {
+        let same =
+            |(known, own, _): &&(Arc<Material>, _, usize)| Arc::ptr_eq(known, material) && *own == color;
+        if let Some((_, _, index)) = self.looks.iter().find(same) {
+            return *index;
+        }
+        let index = match color {
+            Some(color) => self.material_in_color(material, color),
+            None => self.find_material(material).unwrap_or_else(|| self.add_material(Arc::clone(material))),
+        };
+        if self.looks.len() == MOST_LOOKS {
+            self.looks.clear();
+        }
+        self.looks.push((Arc::clone(material), color, index));
+        index
+    }
+
     /// Returns the index of the part with this material in another colour, and adds the part if it is missing.
     pub fn material_in_color(&mut self, material: &Material, color: [f32; 4]) -> usize {
-        let is_wanted = |known: &Material| {
+        let is_wanted = |known: &Arc<Material>| {
             let Material {
                 name,
                 base_color,
@@ -149,7 +185,7 @@ impl Drawing {
                 normal_map,
                 dirt_map,
                 double_sided,
-            } = known;
+            } = &**known;
             *base_color == color
                 && *metallic == material.metallic
                 && *roughness == material.roughness
@@ -167,7 +203,7 @@ impl Drawing {
     }
 
     /// Returns the material of the part at `index`; the default material if there is no such part.
-    pub fn material_of(&self, index: usize) -> Material {
+    pub fn material_of(&self, index: usize) -> Arc<Material> {
         self.materials.get(index).cloned().unwrap_or_default()
     }
 

@@ -40,7 +40,7 @@ impl Footprint {
     /// For formats with meanings, faces with the tag "roof" are roofs, with "extrude.bottom" ground, with "window" or "door" openings,
     /// and all others walls.
     pub fn shape(&mut self, shape: Arc<ShapeObject>, color: Option<Color>) -> Result<()> {
-        let material = self.material(None, None)?;
+        let material = Arc::new(self.material(None, None)?);
         let transform = DAffine3::from_translation(-self.origin());
         let to = ShapeTarget { drawing: &mut self.drawing, base: &material, color };
         let warning = draw_building(to, &transform, &shape)?;

@@ -6,7 +6,7 @@ use burgeon_base::Stop;
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_kit::{Color, Drawing};
-use burgeon_scene::{Material, Part, SurfaceMeaning};
+use burgeon_scene::{Material, Normal, Part, SurfaceMeaning};
 use burgeon_shapes::{FaceStyle, PolygonMesh, Scope, ShapeBody, SharedStyle};
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 
@@ -22,7 +22,7 @@ const FARTHEST: f64 = 1e12;
 pub(crate) struct ShapeTarget<'a> {
     pub drawing: &'a mut Drawing,
     /// Material of the faces without a material of their own.
-    pub base: &'a Material,
+    pub base: &'a Arc<Material>,
     /// Colour of the faces without a colour or a material of their own, if it differs from that of the material.
     pub color: Option<Color>,
 }
@@ -82,7 +82,7 @@ fn draw(
         )
         .help("draw it near the origin: look for an offset or a size that grows"));
     }
-    let mut parts = StyledParts { to, last: None, without_set: None };
+    let mut parts = StyledParts { to, without_set: None };
     // Most shapes of a facade are rectangles and boxes, which need no mesh.
     let is_plain = |style: &SharedStyle| {
         parts.dirt_set(style).is_none()
@@ -120,14 +120,9 @@ fn draw(
     Ok(None)
 }
 
-/// Colour and material of a face, by the address of the material.
-type FaceLook = (Option<[f32; 4]>, Option<*const Material>);
-
 /// Parts of a drawing by the colours and materials of faces.
 struct StyledParts<'a> {
     to: ShapeTarget<'a>,
-    /// Look of the last face, and the index of its part: faces of the same look often follow each other.
-    last: Option<(FaceLook, usize)>,
     /// Set of the dirt map of a face that has no such set.
     without_set: Option<DirtSet>,
 }
@@ -142,16 +137,7 @@ impl StyledParts<'_> {
         let own = style.as_deref().and_then(|style| style.material.as_ref());
         let given = if own.is_none() { color.map(|color| color.0) } else { None };
         let color = style.as_deref().and_then(|style| style.color).or(given);
-        let look = (color, own.map(Arc::as_ptr));
-        let material: &Material = own.map_or(*base, |own| own);
-        let index = match self.last {
-            Some((last, index)) if last == look => index,
-            _ => match color {
-                Some(color) => drawing.material_in_color(material, color),
-                None => drawing.material(material),
-            },
-        };
-        self.last = Some((look, index));
+        let index = drawing.look(own.unwrap_or(base), color);
         match meaning {
             Some(meaning) => drawing.surface(index, meaning),
             None => drawing.part(index),
@@ -186,9 +172,9 @@ fn draw_quad(part: &mut Part, corners: [DVec3; 4]) -> Result<()> {
     let axes = Scope::face_axes(normal, DMat3::IDENTITY);
     let base = first_vertex(part, 4)?;
     part.make_room(4, 2);
-    for at in corners {
-        add_vertex(part, at, normal, in_plane(at, &axes));
-    }
+    part.positions.extend(corners.map(|at| at.as_vec3()));
+    part.normals.extend([Normal::from(normal); 4]);
+    part.uvs.extend(corners.map(|at| in_plane(at, &axes).as_vec2()));
     add_triangle(part, [base, base + 1, base + 2]);
     add_triangle(part, [base, base + 2, base + 3]);
     Ok(())

@@ -306,7 +306,7 @@ impl Turtle {
     /// number the points from 0. `options` sets shading and colours.
     pub fn mesh(&mut self, points: MeshPoints, faces: MeshFaces, options: Option<MeshOptions>) -> Result<()> {
         let base = self.drawing.material_of(self.state.part);
-        let to = ("turtle", &mut self.drawing, &base);
+        let to = ("turtle", &mut self.drawing, &*base);
         draw_mesh(to, &self.state.transform(), &points, &faces, &options.unwrap_or_default())
     }
 
@@ -398,12 +398,13 @@ impl Turtle {
 
     fn paint_with(&mut self, color: Color) {
         let material = self.drawing.material_of(self.state.part);
-        self.state.part = self.drawing.material(&Material { base_color: color.0, ..material });
+        self.state.part = self.drawing.material(&Material { base_color: color.0, ..(*material).clone() });
     }
 
     /// Returns the part with the present material, visible from both sides.
     fn two_sided(&mut self) -> usize {
-        let material = Material { double_sided: true, ..self.drawing.material_of(self.state.part) };
+        let material = self.drawing.material_of(self.state.part);
+        let material = Material { double_sided: true, ..(*material).clone() };
         self.drawing.material(&material)
     }
 

@@ -20,7 +20,7 @@ impl Shape {
     pub fn has_trim_of(&self, other: &Self) -> bool {
         match (&self.trim, &other.trim) {
             (None, None) => true,
-            (Some(one), Some(two)) => Arc::ptr_eq(one, two) || one.is_same(two),
+            (Some(one), Some(two)) => one.is_same(two),
             _ => false,
         }
     }
@@ -75,8 +75,7 @@ impl Shape {
     /// Returns the shape as a face with this number of another shape.
     #[allow(clippy::cast_possible_truncation, reason = "a mesh has fewer than 2^32 faces")]
     pub(crate) fn with_trim(self, source: Option<&Arc<TrimSource>>, face: usize) -> Self {
-        let trim = source
-            .map(|source| Arc::new(TrimFace { source: Arc::clone(source), face: face as u32, moved: None }));
+        let trim = source.map(|source| TrimFace { source: Arc::clone(source), face: face as u32 });
         Self { trim, ..self }
     }
 
@@ -87,7 +86,7 @@ impl Shape {
 
     /// Returns the shape with the trim planes of another one that moved.
     pub(crate) fn with_trim_moved(self, other: &Self, frame: &DAffine3) -> Self {
-        let trim = other.trim.as_ref().map(|trim| Arc::new(trim.transform(frame)));
+        let trim = other.trim.as_ref().map(|trim| trim.transform(frame));
         Self { trim, ..self }
     }
 }
