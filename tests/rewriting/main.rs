@@ -6,6 +6,7 @@ mod candidates;
 mod chains_as_axioms;
 mod choice;
 mod closures;
+mod conditions;
 mod contexts;
 mod continued;
 mod decomposition;

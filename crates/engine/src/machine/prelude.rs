@@ -53,6 +53,9 @@ pub(crate) struct Prelude {
     pub driver: Function,
     /// `(guard, arity, places, reads)`: returns a function that evaluates the guard for a batch.
     pub guard_driver: Function,
+    /// `(guard)`: returns the code of its condition and the numbers in it, see
+    /// [`Condition::read`](burgeon_rewriting::Condition::read); nil unless it only compares numbers.
+    pub condition: Function,
     /// `(propensity, arity, places)`: returns the function that evaluates the propensity of a rule for a batch.
     pub propensity_driver: Function,
     /// `(rule, arity)`: returns what a rule divides, how, and the modules of the parts; nil unless that is known before it is
@@ -170,6 +173,7 @@ impl Prelude {
             pending: table.get("pending")?,
             driver: table.get("driver")?,
             guard_driver: table.get("guard_driver")?,
+            condition: table.get("condition")?,
             propensity_driver: table.get("propensity_driver")?,
             division: table.get("division")?,
             applier: table.get("applier")?,

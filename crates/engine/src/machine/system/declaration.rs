@@ -15,7 +15,7 @@ use crate::machine::types::methods_key;
 use crate::results::DerivedSystem;
 use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_kit::{Call, Locate, Object, ObjectPlace};
-use burgeon_rewriting::{Grammar, Region, Rule, Symbol};
+use burgeon_rewriting::{Condition, Grammar, Region, Rule, Symbol};
 
 use super::ignored::IgnoredModules;
 use super::subsystems::{DeclaredSubsystem, LinkedSubsystems};
@@ -298,14 +298,20 @@ impl SystemDeclaration {
         let ignored = self.ignored.among(&symbols);
         // Weights of interpretation rules draw from the keys of modules, too.
         let random = random || self.interpretations.iter().any(|known| known.rule.weight.is_some());
-        let with_ignored = |declared: &DeclaredRule| {
-            let rule = declared.rule.clone();
+        let machine = library.machine()?;
+        let completed = |declared: &DeclaredRule| {
+            let mut rule = declared.rule.clone();
+            if let Some(guard) = &declared.guard
+                && let Some(condition) = self.condition_of(&machine, guard)
+            {
+                rule = rule.with_condition(condition);
+            }
             match self.ignored_by(&declared.rule, &declared.ignored) {
                 Some(ignored) => rule.ignoring(ignored.among(&symbols)),
                 None => rule,
             }
         };
-        let rules = self.rules.iter().map(with_ignored).collect();
+        let rules = self.rules.iter().map(completed).collect();
         let openers: Vec<(Symbol, Region)> =
             self.openers().iter().map(|opener| (opener.symbol, opener.region)).collect();
         let grammar =
@@ -315,6 +321,17 @@ impl SystemDeclaration {
             declared.phase == phase && (declared.group.is_none() || declared.group.as_deref() == group)
         });
         grammar.with_compatible_rules()
+    }
+
+    /// Returns the condition of a guard that only compares numbers, which no hook can change.
+    fn condition_of(&self, machine: &Machine, guard: &Function) -> Option<Condition> {
+        let (code, outer): (Option<String>, Option<Vec<f64>>) =
+            machine.prelude().condition.call(guard).ok()?;
+        let outer = outer?;
+        if !outer.is_empty() && !self.hooks.is_empty() {
+            return None;
+        }
+        Condition::read(&code?, &outer)
     }
 
     /// Prepares `machine` for deriving this system: creates the drivers and freezes reachable tables.

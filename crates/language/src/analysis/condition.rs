@@ -1,0 +1,188 @@
+//! Guards that only compare numbers.
+
+use full_moon::ast::{BinOp, Expression, FunctionBody, LastStmt, Parameter, UnOp, Var};
+
+use super::syntax::text_of;
+
+/// Maximum number of operands and operators.
+const MOST: usize = 64;
+
+/// Condition of a guard, which the program evaluates without a call of the guard.
+pub(super) struct ConditionText {
+    /// Operands and operators in postfix notation, as [`Condition::read`](burgeon_rewriting::Condition::read) takes them.
+    pub code: String,
+    /// Names of the variables outside of the guard, in the order of their numbers.
+    pub outer: Vec<String>,
+}
+
+/// Type of an expression.
+#[derive(Clone, Copy, PartialEq)]
+enum ValueType {
+    Number,
+    Boolean,
+}
+
+/// Returns the condition that a function does nothing but return: comparisons of sums, products and quotients of its parameters
+/// after the first, numbers and variables.
+pub(super) fn condition_of(body: &FunctionBody) -> Option<ConditionText> {
+    let mut parameters = Vec::new();
+    for parameter in body.parameters() {
+        let Parameter::Name(name) = parameter else { return None };
+        parameters.push(text_of(name));
+    }
+    let Some(LastStmt::Return(last)) = body.block().last_stmt() else { return None };
+    let mut returned = last.returns().iter();
+    let (Some(value), None, None) = (returned.next(), returned.next(), body.block().stmts().next()) else {
+        return None;
+    };
+    let mut writer = ConditionWriter { parameters, words: Vec::new(), outer: Vec::new() };
+    let is_condition = writer.write(value)? == ValueType::Boolean;
+    is_condition.then(|| ConditionText { code: writer.words.join(" "), outer: writer.outer })
+}
+
+struct ConditionWriter {
+    parameters: Vec<String>,
+    words: Vec<String>,
+    outer: Vec<String>,
+}
+
+impl ConditionWriter {
+    /// Writes an expression in postfix notation, and returns its type; `None` for others than numbers and comparisons.
+    fn write(&mut self, expression: &Expression) -> Option<ValueType> {
+        use ValueType::{Boolean, Number};
+        if self.words.len() >= MOST {
+            return None;
+        }
+        match expression {
+            Expression::Parentheses { expression, .. } => self.write(expression),
+            Expression::Number(number) => self.word(read_number(&text_of(number))?.to_string(), Number),
+            Expression::Symbol(symbol) => match text_of(symbol).as_str() {
+                value @ ("true" | "false") => self.word(value.to_owned(), Boolean),
+                _ => None,
+            },
+            Expression::Var(Var::Name(name)) => {
+                let name = text_of(name);
+                let word = match self.parameters.iter().rposition(|known| *known == name) {
+                    // The first parameter is `this`.
+                    Some(number) => format!("a{}", number.checked_sub(1)?),
+                    None => format!("o{}", self.outer_number(name)),
+                };
+                self.word(word, Number)
+            }
+            Expression::UnaryOperator { unop, expression } => {
+                let (word, of) = match unop {
+                    UnOp::Minus(_) => ("neg", Number),
+                    UnOp::Not(_) => ("not", Boolean),
+                    _ => return None,
+                };
+                (self.write(expression)? == of).then_some(())?;
+                self.word(word.to_owned(), of)
+            }
+            Expression::BinaryOperator { lhs, binop, rhs } => {
+                let (word, of, gives) = match binop {
+                    BinOp::Plus(_) => ("+", Number, Number),
+                    BinOp::Minus(_) => ("-", Number, Number),
+                    BinOp::Star(_) => ("*", Number, Number),
+                    BinOp::Slash(_) => ("/", Number, Number),
+                    BinOp::DoubleSlash(_) => ("//", Number, Number),
+                    BinOp::Percent(_) => ("%", Number, Number),
+                    BinOp::LessThan(_) => ("<", Number, Boolean),
+                    BinOp::LessThanEqual(_) => ("<=", Number, Boolean),
+                    BinOp::GreaterThan(_) => (">", Number, Boolean),
+                    BinOp::GreaterThanEqual(_) => (">=", Number, Boolean),
+                    BinOp::TwoEqual(_) => ("==", Number, Boolean),
+                    BinOp::TildeEqual(_) => ("~=", Number, Boolean),
+                    BinOp::And(_) => ("and", Boolean, Boolean),
+                    BinOp::Or(_) => ("or", Boolean, Boolean),
+                    _ => return None,
+                };
+                (self.write(lhs)? == of && self.write(rhs)? == of).then_some(())?;
+                self.word(word.to_owned(), gives)
+            }
+            _ => None,
+        }
+    }
+
+    fn word(&mut self, word: String, of: ValueType) -> Option<ValueType> {
+        self.words.push(word);
+        Some(of)
+    }
+
+    /// Returns the number of a variable outside of the function.
+    fn outer_number(&mut self, name: String) -> usize {
+        let known = self.outer.iter().position(|known| *known == name);
+        known.unwrap_or_else(|| {
+            self.outer.push(name);
+            self.outer.len() - 1
+        })
+    }
+}
+
+/// Reads a number as Luau writes it.
+#[allow(clippy::cast_precision_loss, reason = "Luau rounds integers in the same way")]
+fn read_number(text: &str) -> Option<f64> {
+    let text = text.replace('_', "").to_ascii_lowercase();
+    let in_base = |digits: &str, base: u32| u64::from_str_radix(digits, base).ok().map(|it| it as f64);
+    match (text.strip_prefix("0x"), text.strip_prefix("0b")) {
+        (Some(digits), _) => in_base(digits, 16),
+        (_, Some(digits)) => in_base(digits, 2),
+        _ => text.parse().ok(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use full_moon::ast::{Expression, LastStmt};
+
+    use super::*;
+
+    /// Returns the condition of a function, and its variables.
+    fn condition(function: &str) -> Option<String> {
+        let ast = full_moon::parse(&format!("return {function}")).expect("Lua");
+        let Some(LastStmt::Return(last)) = ast.nodes().last_stmt() else { return None };
+        let Some(Expression::Function(function)) = last.returns().iter().next() else { return None };
+        let found = condition_of(function.body())?;
+        Some(format!("{}|{}", found.code, found.outer.join(",")))
+    }
+
+    #[test]
+    fn comparisons_of_parameters_numbers_and_variables_are_conditions() {
+        for (function, expected) in [
+            ("function(_, n) return n > 0 end", "a0 0 >|"),
+            ("function(this, a, b) return a + 2 * b <= limit end", "a0 2 a1 * + o0 <=|limit"),
+            (
+                "function(_, a) return not (a == -0x10 or a ~= 1_0) and true end",
+                "a0 16 neg == a0 10 ~= or not true and|",
+            ),
+            ("function(_, a) return a % m // 2 == m / 2 end", "a0 o0 % 2 // o0 2 / ==|m"),
+            ("function(_, a: number): boolean return a < 1e3 end", "a0 1000 <|"),
+            ("function(_, a, a) return a < 1 end", "a1 1 <|"),
+        ] {
+            assert_eq!(condition(function).as_deref(), Some(expected), "{function}");
+        }
+    }
+
+    #[test]
+    fn other_functions_are_no_conditions() {
+        for function in [
+            "function(_, n) return n end",
+            "function(_, n) return n > 0 and n end",
+            "function(_, n) return this > 0 and n > #n end",
+            "function(this, n) return this == n end",
+            "function(_, n) return n > f(2) end",
+            "function(_, n) return n > t.x end",
+            "function(_, n) return n > 0, 1 end",
+            "function(_, n) local m = n return m > 0 end",
+            "function(_, ...) return ... > 0 end",
+            "function(_, n) return n == nil end",
+            "function(_, n) return n .. 1 == 'a1' end",
+            "function(_, n) return n ^ 2 > 3 end",
+            "function(_, n) return (n > 0) == true end",
+            "function(_, n) if n > 0 then return true end end",
+        ] {
+            assert_eq!(condition(function), None, "{function}");
+        }
+        let long = format!("function(_, n) return n > 0{} end", " + n".repeat(40));
+        assert_eq!(condition(&long), None);
+    }
+}

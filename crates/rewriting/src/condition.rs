@@ -1,0 +1,245 @@
+//! Guards as expressions of numbers, which need no call of a function.
+
+/// Maximum number of values that an evaluation holds at once.
+const DEEPEST: usize = 8;
+
+/// Number of rows of arguments that are evaluated together.
+pub(crate) const ROWS: usize = 64;
+
+/// A guard that compares numbers.
+///
+/// ```
+/// use burgeon_rewriting::Condition;
+///
+/// let condition = Condition::read("a0 a1 + o0 < a1 0 > and", &[10.0]).expect("a condition");
+/// let rows = [[3.0, 4.0], [9.0, 4.0]];
+/// let mut holds = Vec::new();
+/// let fill = |argument: usize, column: &mut [f64]| (0..2).for_each(|row| column[row] = rows[row][argument]);
+/// assert!(condition.evaluate(2, fill, &mut holds));
+/// assert_eq!(holds, [1, 0]);
+/// assert!(!condition.evaluate(1, |_, column| column[0] = f64::NAN, &mut holds));
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Condition {
+    operations: Vec<Operation>,
+}
+
+/// Operation on the last values. Truth values are 1 and 0.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Operation {
+    Number(f64),
+    Argument(usize),
+    Negate,
+    Not,
+    Two(Operator),
+}
+
+/// Operator of two values.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Operator {
+    Add,
+    Subtract,
+    Multiply,
+    Divide,
+    DivideDown,
+    Modulo,
+    Less,
+    LessOrEqual,
+    Greater,
+    GreaterOrEqual,
+    Equal,
+    Unequal,
+    And,
+    Or,
+}
+
+impl Condition {
+    /// Reads a condition in postfix notation: numbers, arguments `a0`, `a1` ... , the numbers `outer` as `o0`, `o1` ... , and
+    /// the operators of Lua, with `neg` for the negative number. Returns `None` for anything else.
+    pub fn read(code: &str, outer: &[f64]) -> Option<Self> {
+        let mut operations = Vec::new();
+        // Set for truth values.
+        let mut types: Vec<bool> = Vec::new();
+        for word in code.split(' ') {
+            let (operation, taken, is_truth) = match word {
+                "true" | "false" => (Operation::Number(f64::from(word == "true")), &[][..], true),
+                "neg" => (Operation::Negate, &[false][..], false),
+                "not" => (Operation::Not, &[true][..], true),
+                _ => match Operator::read(word) {
+                    Some((operator, of, gives)) => (
+                        Operation::Two(operator),
+                        if of { &[true, true][..] } else { &[false, false] },
+                        gives,
+                    ),
+                    None => (Operation::operand(word, outer)?, &[][..], false),
+                },
+            };
+            let rest = types.len().checked_sub(taken.len())?;
+            if types.drain(rest..).as_slice() != taken {
+                return None;
+            }
+            types.push(is_truth);
+            operations.push(operation);
+            if types.len() > DEEPEST {
+                return None;
+            }
+        }
+        (types == [true]).then_some(Self { operations })
+    }
+
+    /// Appends 1 or 0 to `holds` for each of at most 64 rows of arguments: 1 if the condition holds. `fill` writes the values of an
+    /// argument to a column.
+    ///
+    /// Returns false, with nothing appended, if a value is not a number, or NaN.
+    pub fn evaluate(
+        &self,
+        rows: usize,
+        mut fill: impl FnMut(usize, &mut [f64]),
+        holds: &mut Vec<u32>,
+    ) -> bool {
+        let rows = rows.min(ROWS);
+        let mut columns = [[0.0; ROWS]; DEEPEST];
+        let mut count = 0;
+        for operation in &self.operations {
+            match *operation {
+                Operation::Number(number) => {
+                    columns[count] = [number; ROWS];
+                    count += 1;
+                }
+                Operation::Argument(index) => {
+                    let column = &mut columns[count][..rows];
+                    fill(index, column);
+                    if column.iter().any(|value| value.is_nan()) {
+                        return false;
+                    }
+                    count += 1;
+                }
+                Operation::Negate => columns[count - 1].iter_mut().for_each(|value| *value = -*value),
+                Operation::Not => columns[count - 1].iter_mut().for_each(|value| *value = 1.0 - *value),
+                Operation::Two(operator) => {
+                    count -= 1;
+                    let (lower, upper) = columns.split_at_mut(count);
+                    operator.apply(&mut lower[count - 1], &upper[0]);
+                }
+            }
+        }
+        holds.extend(columns[0][..rows].iter().map(|value| u32::from(*value != 0.0)));
+        true
+    }
+
+    /// Returns the indices of the arguments that the condition reads.
+    pub fn arguments(&self) -> impl Iterator<Item = usize> {
+        self.operations.iter().filter_map(|operation| match operation {
+            Operation::Argument(index) => Some(*index),
+            _ => None,
+        })
+    }
+}
+
+impl Operation {
+    /// Reads a number or a variable.
+    fn operand(word: &str, outer: &[f64]) -> Option<Self> {
+        if let Some(index) = word.strip_prefix('a') {
+            return Some(Self::Argument(index.parse().ok()?));
+        }
+        match word.strip_prefix('o') {
+            Some(index) => Some(Self::Number(*outer.get(index.parse::<usize>().ok()?)?)),
+            None => Some(Self::Number(word.parse().ok()?)),
+        }
+    }
+}
+
+impl Operator {
+    /// Reads an operator. The flags are set if it takes and if it gives truth values.
+    fn read(word: &str) -> Option<(Self, bool, bool)> {
+        Some(match word {
+            "+" => (Self::Add, false, false),
+            "-" => (Self::Subtract, false, false),
+            "*" => (Self::Multiply, false, false),
+            "/" => (Self::Divide, false, false),
+            "//" => (Self::DivideDown, false, false),
+            "%" => (Self::Modulo, false, false),
+            "<" => (Self::Less, false, true),
+            "<=" => (Self::LessOrEqual, false, true),
+            ">" => (Self::Greater, false, true),
+            ">=" => (Self::GreaterOrEqual, false, true),
+            "==" => (Self::Equal, false, true),
+            "~=" => (Self::Unequal, false, true),
+            "and" => (Self::And, true, true),
+            "or" => (Self::Or, true, true),
+            _ => return None,
+        })
+    }
+
+    /// Applies the operator to each pair of values, and stores the results in `left`.
+    #[allow(clippy::float_cmp, reason = "Lua compares numbers exactly")]
+    fn apply(self, left: &mut [f64; ROWS], right: &[f64; ROWS]) {
+        #[inline(always)]
+        fn each(left: &mut [f64; ROWS], right: &[f64; ROWS], of: impl Fn(f64, f64) -> f64) {
+            left.iter_mut().zip(right).for_each(|(a, b)| *a = of(*a, *b));
+        }
+        match self {
+            Self::Add => each(left, right, |a, b| a + b),
+            Self::Subtract => each(left, right, |a, b| a - b),
+            Self::Multiply | Self::And => each(left, right, |a, b| a * b),
+            Self::Divide => each(left, right, |a, b| a / b),
+            Self::DivideDown => each(left, right, |a, b| (a / b).floor()),
+            // The remainder of Luau, which has the sign of the divisor.
+            Self::Modulo => each(left, right, |a, b| a - (a / b).floor() * b),
+            Self::Less => each(left, right, |a, b| f64::from(a < b)),
+            Self::LessOrEqual => each(left, right, |a, b| f64::from(a <= b)),
+            Self::Greater => each(left, right, |a, b| f64::from(a > b)),
+            Self::GreaterOrEqual => each(left, right, |a, b| f64::from(a >= b)),
+            Self::Equal => each(left, right, |a, b| f64::from(a == b)),
+            Self::Unequal => each(left, right, |a, b| f64::from(a != b)),
+            Self::Or => each(left, right, f64::max),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_condition_has_operands_of_its_operators() {
+        let outer = [0.0];
+        for code in [
+            "",
+            "a0",
+            "a0 1",
+            "a0 1 < 2",
+            "<",
+            "1 <",
+            "a0 1 < a0 and",
+            "a0 not",
+            "a0 1 < neg",
+            "o1 1 <",
+            "x 1 <",
+        ] {
+            assert_eq!(Condition::read(code, &outer), None, "{code}");
+        }
+        let deep = format!("{}{}1 <", "a0 ".repeat(DEEPEST + 1), "+ ".repeat(DEEPEST));
+        assert_eq!(Condition::read(&deep, &outer), None);
+    }
+
+    #[test]
+    fn operators_give_the_values_of_lua() {
+        for (code, arguments, expected) in [
+            ("a0 a1 % 2 ==", [-1.0, 3.0], true),
+            ("a0 a1 % -2 ==", [1.0, -3.0], true),
+            ("a0 a1 // -1 ==", [1.0, -3.0], true),
+            ("a0 a1 / a1 a0 / ==", [0.0, 0.0], false),
+            ("a0 a1 / a1 a0 / ~=", [0.0, 0.0], true),
+            ("a0 neg a1 < not", [1.0, 0.0], false),
+            ("a0 1 < a1 1 < or", [3.0, 0.0], true),
+            ("a0 1 < a1 1 < and", [3.0, 0.0], false),
+            ("true false and not", [0.0, 0.0], true),
+        ] {
+            let condition = Condition::read(code, &[]).unwrap();
+            let mut holds = Vec::new();
+            assert!(condition.evaluate(1, |index, column| column[0] = arguments[index], &mut holds));
+            assert_eq!(holds, [u32::from(expected)], "{code}");
+        }
+    }
+}

@@ -1,0 +1,113 @@
+//! Guards that only compare numbers, which are evaluated without Lua, against the same guards with a statement more, which Lua
+//! runs.
+
+use proptest::prelude::*;
+
+use super::scripts::{all_chains, chain, try_run};
+
+/// Rules whose guard is `condition`, once as it is and once after a statement.
+fn both(axiom: &str, pattern: &str, parameters: &str, condition: &str) -> [String; 2] {
+    ["", "local _ = 1 "].map(|statement| {
+        format!(
+            r#"
+            local A, B = module("A", "x", "y?"), module("B", "z", "w?")
+            local limit, factor, no = 2, 0.5, nil
+            local s = lsystem()
+            s:axiom({axiom})
+            s:rule("{pattern}", {{ when = function(_, {parameters}) {statement}return {condition} end }},
+              function(_, {parameters}) return B(9) end)
+            s:rule("{pattern}", function(_, {parameters}) return A(8) end)
+            s:derive(2)"#
+        )
+    })
+}
+
+/// Returns the chain, or the error.
+fn outcome(script: &str) -> Result<String, String> {
+    let run = try_run(script, burgeon::options()).map_err(|error| error.to_string())?;
+    Ok(all_chains(&run))
+}
+
+/// Generates numbers as Lua text.
+fn number() -> impl Strategy<Value = String> {
+    let variable = prop::sample::select(vec!["x", "y", "z", "w", "limit", "factor"]).prop_map(str::to_owned);
+    let constant =
+        prop::sample::select(vec!["0", "1", "-1.5", "3", "0x4", "1e300", "0.1"]).prop_map(str::to_owned);
+    prop_oneof![3 => variable, 1 => constant].prop_recursive(3, 12, 2, |inner| {
+        let operator = prop::sample::select(vec!["+", "-", "*", "/", "//", "%"]);
+        prop_oneof![
+            (inner.clone(), operator, inner.clone())
+                .prop_map(|(a, operator, b)| format!("({a} {operator} {b})")),
+            inner.prop_map(|a| format!("-({a})")),
+        ]
+    })
+}
+
+fn condition() -> impl Strategy<Value = String> {
+    let operator = prop::sample::select(vec!["<", "<=", ">", ">=", "==", "~="]);
+    let comparison =
+        (number(), operator, number()).prop_map(|(a, operator, b)| format!("{a} {operator} {b}"));
+    comparison.prop_recursive(2, 6, 2, |inner| {
+        prop_oneof![
+            (inner.clone(), inner.clone()).prop_map(|(a, b)| format!("({a} and {b})")),
+            (inner.clone(), inner.clone()).prop_map(|(a, b)| format!("({a} or {b})")),
+            inner.prop_map(|a| format!("not ({a})")),
+        ]
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 120, failure_persistence: None, ..ProptestConfig::default() })]
+    #[test]
+    fn a_condition_holds_as_in_lua(
+        condition in condition(), numbers in prop::collection::vec((-3..4i32, 0..8u32), 24)
+    ) {
+        let module = |(index, (x, y)): (usize, (i32, u32))| {
+            let name = if index % 3 == 1 { "B" } else { "A" };
+            let bracket = if index % 5 == 4 { ["{", "}"] } else { ["", ""] };
+            format!("{}{name}({}, {}){}", bracket[0], f64::from(x) / 2.0, f64::from(y) / 4.0, bracket[1])
+        };
+        let axiom = numbers.into_iter().enumerate().map(module).collect::<Vec<_>>().join(", ");
+        for (pattern, parameters) in
+            [("A(x, y) > B(z, w)", "x, y, z, w"), ("B(z, w) < A(x, y)", "z, w, x, y"), ("B(z, w) < A(x, y) > A", "z, w, x, y")]
+        {
+            let [quick, by_lua] = both(&axiom, pattern, parameters, &condition).map(|script| chain(&script));
+            prop_assert_eq!(quick, by_lua, "{} {}", pattern, condition);
+        }
+    }
+}
+
+#[test]
+fn values_that_are_no_numbers_behave_as_in_lua() {
+    let mut errors = 0;
+    for axiom in
+        ["A(1)", "A(1, true)", "A(\"a\")", "A(0 / 0)", "A({ 1 })", "A(1), A(2), A(false)", "A(vec(1, 2, 3))"]
+    {
+        for condition in
+            ["x > 1", "x == 1", "x ~= y", "y < 2", "x < no", "x == no", "x < 0 or y > 2", "missing == x"]
+        {
+            let [quick, by_lua] = both(axiom, "A(x, y)", "x, y", condition).map(|script| outcome(&script));
+            errors += usize::from(quick.is_err());
+            // The statement is on the same line, so places are the same but for columns.
+            assert_eq!(quick, by_lua, "{axiom} {condition}");
+        }
+    }
+    assert!(errors > 10, "{errors}");
+}
+
+#[test]
+fn a_guard_compares_with_the_values_of_its_variables_when_the_derivation_begins() {
+    let text = chain(
+        r#"
+        local A, B = module("A", "n"), module("B", "n")
+        local limit = 1
+        local s = lsystem()
+        s:axiom(A(1), A(2), A(3), A(4))
+        s:rule("A(n)", { when = function(_, n) return n < limit end }, function(_, n) return B(n) end)
+        limit = 3
+        s:derive(1)
+        limit = 4
+        s:derive(1)"#,
+    );
+    assert_eq!(text, "B(1) B(2) B(3) A(4)");
+}
