@@ -233,7 +233,13 @@ impl Batch<'_> {
 
     fn run(&self, rule: u16, members: &[u32], scratch: &mut Scratch) -> Result<(), (u32, Error)> {
         let mut group = std::mem::take(&mut scratch.groups[usize::from(rule)]);
-        let applied = self.rules.apply(&self.gather(rule, members, scratch), &mut group);
+        let is_made = self.plan.grammar.rules()[usize::from(rule)]
+            .production()
+            .is_some_and(|production| self.produce(rule, production, members, scratch, &mut group));
+        let applied = match is_made {
+            true => Ok(()),
+            false => self.rules.apply(&self.gather(rule, members, scratch), &mut group),
+        };
         group.rewind();
         scratch.groups[usize::from(rule)] = group;
         applied.map_err(|failure| self.blame(failure, rule, members, scratch))

@@ -3,8 +3,7 @@
 use crate::batch::{Active, Batch, ChainPiece, NO_RULE, Scratch, narrow};
 use crate::chain::END;
 use crate::choice::{Candidates, Choice};
-use crate::condition::ROWS;
-use crate::rule::{ArgumentPlace, Rule, RuleCondition};
+use crate::rule::Rule;
 use crate::runs::RechosenModules;
 use burgeon_base::error::{Error, Result};
 
@@ -230,7 +229,7 @@ impl Batch<'_> {
         }
         let mut holds: Vec<u32> = Vec::new();
         if let Some(condition) = self.plan.grammar.rules()[usize::from(rule)].condition()
-            && self.evaluate(rule, condition, members, scratch, &mut holds)
+            && self.evaluate_condition(rule, condition, members, scratch, &mut holds)
         {
             let mut holds = holds.into_iter();
             members.retain(|_| holds.next().is_some_and(|holds| holds != 0));
@@ -254,54 +253,6 @@ impl Batch<'_> {
         let mut holds = holds.into_iter();
         members.retain(|_| holds.next().is_some_and(|holds| holds != 0));
         failed
-    }
-
-    /// Evaluates the condition of a rule for the applications `members`. Returns false if an argument is no number.
-    fn evaluate(
-        &self,
-        rule: u16,
-        condition: &RuleCondition,
-        members: &[u32],
-        scratch: &mut Scratch,
-        holds: &mut Vec<u32>,
-    ) -> bool {
-        let RuleCondition { condition, places, contexts } = condition;
-        let bound = self.contexts().of_rule(rule);
-        let params = &self.chain.params;
-        let Scratch { active, bindings, .. } = scratch;
-        // First parameters of the module and of the contexts that the condition reads, for each row.
-        let mut begins = [0; ROWS];
-        let mut context_begins: Vec<u32> = Vec::new();
-        for members in members.chunks(ROWS) {
-            context_begins.clear();
-            for (index, begin) in members.iter().zip(&mut begins) {
-                let active = active[*index as usize];
-                *begin = active.param;
-                if !contexts.is_empty() {
-                    bound.bind(active.module as usize, bindings);
-                    let begin = |context: &usize| self.links.param[bindings[*context] as usize];
-                    context_begins.extend(contexts.iter().map(begin));
-                }
-            }
-            let fill = |index: usize, column: &mut [f64]| {
-                let ArgumentPlace { context, parameter } = places[index];
-                match context {
-                    None => column.iter_mut().zip(&begins).for_each(|(value, begin)| {
-                        *value = params[*begin as usize + parameter];
-                    }),
-                    Some(context) => {
-                        let begins = context_begins.iter().skip(context).step_by(contexts.len());
-                        column.iter_mut().zip(begins).for_each(|(value, begin)| {
-                            *value = params[*begin as usize + parameter];
-                        });
-                    }
-                }
-            };
-            if !condition.evaluate(members.len(), fill, holds) {
-                return false;
-            }
-        }
-        true
     }
 
     /// Returns true if the chain of an application is skipped because its data is wrong.

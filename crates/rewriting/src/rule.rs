@@ -1,9 +1,11 @@
 //! Rules without their successors.
 
 use super::chain::Symbol;
-use super::condition::Condition;
+use super::formula::Formula;
 use super::pattern::{Item, Pattern};
 use super::regions::Region;
+use super::rule_formulas::{Production, RuleFormulas};
+use super::successors::ReturnShape;
 use burgeon_base::error::SourcePlace;
 
 /// Rate at which a rule applies to each of its modules (events per unit of time).
@@ -13,25 +15,6 @@ pub enum Propensity {
     Constant(f64),
     /// Result of a function of the rule, see [`Rules::propensity`](crate::Rules::propensity).
     Computed,
-}
-
-/// Condition of a rule's guard, with the places of the arguments.
-#[derive(Debug, Clone)]
-pub(super) struct RuleCondition {
-    pub condition: Condition,
-    /// Place of each argument of the rule.
-    pub places: Vec<ArgumentPlace>,
-    /// Indices of the context modules that the condition reads.
-    pub contexts: Vec<usize>,
-}
-
-/// Place of an argument of a rule.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct ArgumentPlace {
-    /// Index among the contexts that the condition reads; `None` for the module itself.
-    pub context: Option<usize>,
-    /// Index among the parameters of the module.
-    pub parameter: usize,
 }
 
 /// A production without its successor, which is a function in each of the script's virtual machines.
@@ -48,7 +31,8 @@ pub struct Rule {
     /// Symbols that the contexts of this rule skip, if they are not those of the system.
     pub(super) ignored: Option<Vec<Symbol>>,
     propensity: Option<Propensity>,
-    condition: Option<RuleCondition>,
+    condition: Option<RuleFormulas>,
+    production: Option<Production>,
     region: Region,
     contexts: Vec<Item>,
     has_contexts: bool,
@@ -77,6 +61,7 @@ impl Rule {
             ignored: None,
             propensity: None,
             condition: None,
+            production: None,
             region: 0,
             contexts,
             has_contexts,
@@ -112,38 +97,34 @@ impl Rule {
         Self { propensity: Some(propensity), ..self }
     }
 
-    /// Returns the rule whose guard is a condition, which is evaluated in its place. The functions of the rule still need the
-    /// guard, for arguments that are no numbers.
+    /// Returns the rule whose guard is a condition, which is evaluated in its place. The guard is still needed for arguments that
+    /// are no numbers.
     #[must_use]
-    pub fn with_condition(mut self, condition: Condition) -> Self {
-        let is_plain = self.guarded && !self.skips_arguments;
-        if is_plain && condition.arguments().all(|index| index < self.arguments()) {
-            let left = self.pattern.left.len();
-            let of = |context: Option<usize>, bound: usize| {
-                (0..bound).map(move |parameter| ArgumentPlace { context, parameter })
-            };
-            let context = |index: usize| of(Some(index), self.contexts[index].bound);
-            let (lefts, rights) = ((0..left), (left..self.contexts.len()));
-            let own = of(None, self.pattern.own_bound());
-            let places: Vec<_> = lefts.flat_map(context).chain(own).chain(rights.flat_map(context)).collect();
-            let mut contexts: Vec<usize> =
-                condition.arguments().filter_map(|index| places[index].context).collect();
-            contexts.sort_unstable();
-            contexts.dedup();
-            let in_order = |place: ArgumentPlace| ArgumentPlace {
-                context: place.context.and_then(|context| contexts.binary_search(&context).ok()),
-                ..place
-            };
-            let places = places.into_iter().map(in_order).collect();
-            self.condition = Some(RuleCondition { condition, places, contexts });
+    pub fn with_condition(mut self, condition: Formula) -> Self {
+        if self.guarded && condition.is_truth() {
+            self.condition = RuleFormulas::new(&self, vec![condition]);
         }
+        self
+    }
+
+    /// Returns the rule whose successor always has a shape, with formulas of the parameters, which are evaluated in place of its
+    /// function. The function is still needed for values that are no numbers.
+    #[must_use]
+    pub fn with_production(mut self, shape: ReturnShape, parameters: Vec<Formula>) -> Self {
+        self.production = Production::new(&self, shape, parameters);
         self
     }
 
     /// Returns the condition of the guard, if the guard is one.
     #[inline]
-    pub(super) fn condition(&self) -> Option<&RuleCondition> {
+    pub(super) fn condition(&self) -> Option<&RuleFormulas> {
         self.condition.as_ref()
+    }
+
+    /// Returns the successor, if its parameters are formulas.
+    #[inline]
+    pub(super) fn production(&self) -> Option<&Production> {
+        self.production.as_ref()
     }
 
     /// Returns the rate of the rule, if it applies to one module at a time.

@@ -53,9 +53,9 @@ pub(crate) struct Prelude {
     pub driver: Function,
     /// `(guard, arity, places, reads)`: returns a function that evaluates the guard for a batch.
     pub guard_driver: Function,
-    /// `(guard)`: returns the code of its condition and the numbers in it, see
-    /// [`Condition::read`](burgeon_rewriting::Condition::read); nil unless it only compares numbers.
-    pub condition: Function,
+    /// `(rule)`: returns the formulas of a function that only calculates with numbers, separated by semicolons, the numbers in
+    /// them, see [`Formula::read`](burgeon_rewriting::Formula::read), and the number of the shape that it returns; nil for other functions.
+    pub formulas: Function,
     /// `(propensity, arity, places)`: returns the function that evaluates the propensity of a rule for a batch.
     pub propensity_driver: Function,
     /// `(rule, arity)`: returns what a rule divides, how, and the modules of the parts; nil unless that is known before it is
@@ -173,7 +173,7 @@ impl Prelude {
             pending: table.get("pending")?,
             driver: table.get("driver")?,
             guard_driver: table.get("guard_driver")?,
-            condition: table.get("condition")?,
+            formulas: table.get("formulas")?,
             propensity_driver: table.get("propensity_driver")?,
             division: table.get("division")?,
             applier: table.get("applier")?,

@@ -6,18 +6,18 @@
 //! The analysis changes the text but no line break. If the modules and brackets of a rule's `return A(x), { B(y) }`,
 //! its shape, are visible in the text, the return becomes one call with all parameters. Other returns are marked as nil
 //! or as a list. An assignment in a function to a variable outside of the function is preceded by a check that no rule
-//! is running. Functions of rules are marked as prepared, guards that only compare
-//! numbers with what they compare, and successors in strings get their line number. Loops over
+//! is running. Functions of rules are marked as prepared, those that only calculate with
+//! numbers with their formulas, and successors in strings get their line number. Loops over
 //! tables check the order of keys, and assignments to `self` check that the state can store the value.
 
 mod blocks;
 mod calls;
-mod condition;
 mod division;
 mod doubtful;
 mod endings;
 mod expressions;
 mod files;
+mod formulas;
 mod globals;
 mod held;
 mod inference;

@@ -11,8 +11,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::atomic::Ordering;
 
 use super::blocks::ScopeWalk;
-use super::condition::{ConditionText, condition_of};
 use super::division::only_divides;
+use super::formulas::{FormulaText, condition_of, production_of};
 use super::syntax::{end_of, first_position, is_function_option, is_open, string_of, text_of};
 use super::walk::{Fact, Function, FunctionRole, Variable, Walk};
 use crate::CallForm;
@@ -99,18 +99,21 @@ impl Walk<'_> {
         self.edit(begin.bytes(), begin.bytes(), format!("\"{}\"..", super::script::line_prefix(line)));
     }
 
-    /// Walks a function of a rule, and marks it in the text as prepared. A guard that only compares numbers comes with its
-    /// condition, and a function that returns the variables in it.
+    /// Walks a function of a rule, and marks it in the text as prepared. A function that only calculates with numbers comes
+    /// with its formulas, and a function that returns the variables in them.
     fn prepare_function(&mut self, value: &Expression, body: &FunctionBody, role: FunctionRole) {
         if let (Some(begin), Some(end)) = (value.start_position(), end_of(value)) {
             self.edit(begin.bytes(), begin.bytes(), "__prepared(");
             let shapes = self.function(body, role, false);
             let shapes: String = shapes.iter().map(|shape| format!(", {shape}")).collect();
-            let condition = condition_of(body).filter(|_| role == FunctionRole::Guard);
-            let condition = condition.map_or_else(String::new, |ConditionText { code, outer }| {
+            let formulas = match role {
+                FunctionRole::Guard => condition_of(body),
+                _ => production_of(body),
+            };
+            let formulas = formulas.map_or_else(String::new, |FormulaText { code, outer }| {
                 format!(", \"{code}\", function() return {} end", outer.join(", "))
             });
-            self.edit(end.bytes(), end.bytes(), format!("{shapes}{condition})"));
+            self.edit(end.bytes(), end.bytes(), format!("{shapes}{formulas})"));
         }
     }
 

@@ -15,7 +15,7 @@ use crate::machine::types::methods_key;
 use crate::results::DerivedSystem;
 use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_kit::{Call, Locate, Object, ObjectPlace};
-use burgeon_rewriting::{Condition, Grammar, Region, Rule, Symbol};
+use burgeon_rewriting::{Formula, Grammar, Region, ReturnShape, Rule, Successors, Symbol};
 
 use super::ignored::IgnoredModules;
 use super::subsystems::{DeclaredSubsystem, LinkedSubsystems};
@@ -302,9 +302,13 @@ impl SystemDeclaration {
         let completed = |declared: &DeclaredRule| {
             let mut rule = declared.rule.clone();
             if let Some(guard) = &declared.guard
-                && let Some(condition) = self.condition_of(&machine, guard)
+                && let Some((mut condition, _)) = self.formulas_of(&machine, guard)
+                && let (Some(condition), true) = (condition.pop(), condition.is_empty())
             {
                 rule = rule.with_condition(condition);
+            }
+            if let Some((parameters, Some(shape))) = self.formulas_of(&machine, &declared.successor) {
+                rule = rule.with_production(shape, parameters);
             }
             match self.ignored_by(&declared.rule, &declared.ignored) {
                 Some(ignored) => rule.ignoring(ignored.among(&symbols)),
@@ -323,15 +327,24 @@ impl SystemDeclaration {
         grammar.with_compatible_rules()
     }
 
-    /// Returns the condition of a guard that only compares numbers, which no hook can change.
-    fn condition_of(&self, machine: &Machine, guard: &Function) -> Option<Condition> {
-        let (code, outer): (Option<String>, Option<Vec<f64>>) =
-            machine.prelude().condition.call(guard).ok()?;
-        let outer = outer?;
+    /// Returns the formulas of a function that only calculates with numbers, which no hook can change, and the shape that it
+    /// returns.
+    fn formulas_of(
+        &self,
+        machine: &Machine,
+        function: &Function,
+    ) -> Option<(Vec<Formula>, Option<ReturnShape>)> {
+        type Found = (Option<String>, Option<Vec<f64>>, Option<usize>);
+        let (code, outer, shape): Found = machine.prelude().formulas.call(function).ok()?;
+        let (code, outer) = (code?, outer?);
         if !outer.is_empty() && !self.hooks.is_empty() {
             return None;
         }
-        Condition::read(&code?, &outer)
+        let codes = code.split(';').filter(|code| !code.is_empty());
+        let formulas: Vec<Formula> = codes.map(|code| Formula::read(code, &outer)).collect::<Option<_>>()?;
+        let shapes = machine.current.shapes.borrow();
+        let shape = shape.and_then(|number| shapes.get(number.checked_sub(Successors::SHAPE as usize)?));
+        Some((formulas, shape.cloned()))
     }
 
     /// Prepares `machine` for deriving this system: creates the drivers and freezes reachable tables.

@@ -1,17 +1,19 @@
-//! Guards that only compare numbers.
+//! Functions of rules that only calculate with numbers: guards that compare them, and successors whose parameters are formulas.
 
-use full_moon::ast::{BinOp, Expression, FunctionBody, LastStmt, Parameter, UnOp, Var};
+use full_moon::ast::{BinOp, Call, Expression, Field, FunctionArgs, FunctionBody, LastStmt, Parameter};
+use full_moon::ast::{Suffix, UnOp, Var};
 
 use super::syntax::text_of;
 
-/// Maximum number of operands and operators.
+/// Maximum number of operands and operators of a formula.
 const MOST: usize = 64;
 
-/// Condition of a guard, which the program evaluates without a call of the guard.
-pub(super) struct ConditionText {
-    /// Operands and operators in postfix notation, as [`Condition::read`](burgeon_rewriting::Condition::read) takes them.
+/// Formulas of a function, which the program evaluates without a call of the function.
+pub(super) struct FormulaText {
+    /// Operands and operators in postfix notation, as [`Formula::read`](burgeon_rewriting::Formula::read) takes them; several
+    /// formulas with a semicolon in between.
     pub code: String,
-    /// Names of the variables outside of the guard, in the order of their numbers.
+    /// Names of the variables outside of the function, in the order of their numbers.
     pub outer: Vec<String>,
 }
 
@@ -24,29 +26,77 @@ enum ValueType {
 
 /// Returns the condition that a function does nothing but return: comparisons of sums, products and quotients of its parameters
 /// after the first, numbers and variables.
-pub(super) fn condition_of(body: &FunctionBody) -> Option<ConditionText> {
-    let mut parameters = Vec::new();
-    for parameter in body.parameters() {
-        let Parameter::Name(name) = parameter else { return None };
-        parameters.push(text_of(name));
-    }
-    let Some(LastStmt::Return(last)) = body.block().last_stmt() else { return None };
-    let mut returned = last.returns().iter();
-    let (Some(value), None, None) = (returned.next(), returned.next(), body.block().stmts().next()) else {
-        return None;
-    };
-    let mut writer = ConditionWriter { parameters, words: Vec::new(), outer: Vec::new() };
-    let is_condition = writer.write(value)? == ValueType::Boolean;
-    is_condition.then(|| ConditionText { code: writer.words.join(" "), outer: writer.outer })
+pub(super) fn condition_of(body: &FunctionBody) -> Option<FormulaText> {
+    let (mut writer, returned) = FormulaWriter::begin(body)?;
+    let [value] = returned.as_slice() else { return None };
+    writer.formula(value, ValueType::Boolean)?;
+    Some(writer.end())
 }
 
-struct ConditionWriter {
+/// Returns the parameters of the modules that a function does nothing but return, if they are sums, products and quotients of its
+/// parameters after the first, numbers and variables.
+pub(super) fn production_of(body: &FunctionBody) -> Option<FormulaText> {
+    let (mut writer, returned) = FormulaWriter::begin(body)?;
+    returned.into_iter().try_for_each(|value| writer.module(value))?;
+    Some(writer.end())
+}
+
+struct FormulaWriter {
     parameters: Vec<String>,
+    /// Formulas so far.
+    formulas: Vec<String>,
+    /// Words of the present formula.
     words: Vec<String>,
     outer: Vec<String>,
 }
 
-impl ConditionWriter {
+impl FormulaWriter {
+    /// Creates the writer for a function, and returns what the function returns; `None` if it does anything else.
+    fn begin(body: &FunctionBody) -> Option<(Self, Vec<&Expression>)> {
+        let mut parameters = Vec::new();
+        for parameter in body.parameters() {
+            let Parameter::Name(name) = parameter else { return None };
+            parameters.push(text_of(name));
+        }
+        let Some(LastStmt::Return(last)) = body.block().last_stmt() else { return None };
+        let is_alone = body.block().stmts().next().is_none();
+        let writer = Self { parameters, formulas: Vec::new(), words: Vec::new(), outer: Vec::new() };
+        is_alone.then(|| (writer, last.returns().iter().collect()))
+    }
+
+    fn end(self) -> FormulaText {
+        FormulaText { code: self.formulas.join(";"), outer: self.outer }
+    }
+
+    /// Writes the parameters of a module, or of those in a branch.
+    fn module(&mut self, value: &Expression) -> Option<()> {
+        match value {
+            Expression::FunctionCall(call) => {
+                let mut suffixes = call.suffixes();
+                let (Some(Suffix::Call(Call::AnonymousCall(arguments))), None) =
+                    (suffixes.next(), suffixes.next())
+                else {
+                    return None;
+                };
+                let FunctionArgs::Parentheses { arguments, .. } = &**arguments else { return None };
+                arguments.iter().try_for_each(|argument| self.formula(argument, ValueType::Number))
+            }
+            Expression::TableConstructor(table) => table.fields().iter().try_for_each(|field| match field {
+                Field::NoKey(value) => self.module(value),
+                _ => None,
+            }),
+            _ => None,
+        }
+    }
+
+    /// Writes a formula; `None` if it is of another type.
+    fn formula(&mut self, expression: &Expression, of: ValueType) -> Option<()> {
+        (self.write(expression)? == of).then_some(())?;
+        self.formulas.push(self.words.join(" "));
+        self.words.clear();
+        Some(())
+    }
+
     /// Writes an expression in postfix notation, and returns its type; `None` for others than numbers and comparisons.
     fn write(&mut self, expression: &Expression) -> Option<ValueType> {
         use ValueType::{Boolean, Number};
@@ -136,12 +186,16 @@ mod tests {
 
     use super::*;
 
-    /// Returns the condition of a function, and its variables.
     fn condition(function: &str) -> Option<String> {
+        text(function, condition_of)
+    }
+
+    /// Returns the formulas of a function, and its variables.
+    fn text(function: &str, of: impl Fn(&FunctionBody) -> Option<FormulaText>) -> Option<String> {
         let ast = full_moon::parse(&format!("return {function}")).expect("Lua");
         let Some(LastStmt::Return(last)) = ast.nodes().last_stmt() else { return None };
         let Some(Expression::Function(function)) = last.returns().iter().next() else { return None };
-        let found = condition_of(function.body())?;
+        let found = of(function.body())?;
         Some(format!("{}|{}", found.code, found.outer.join(",")))
     }
 
@@ -159,6 +213,23 @@ mod tests {
             ("function(_, a, a) return a < 1 end", "a1 1 <|"),
         ] {
             assert_eq!(condition(function).as_deref(), Some(expected), "{function}");
+        }
+    }
+
+    #[test]
+    fn parameters_of_returned_modules_are_formulas() {
+        for (function, expected) in [
+            ("function(_, n) return A(n - 1), { B(), C(n, r * n) }, D() end", Some("a0 1 -;a0;o0 a0 *|r")),
+            ("function() return A(), B() end", Some("|")),
+            ("function(_, n) return A(n > 1) end", None),
+            ("function(_, n) return A(f(n)) end", None),
+            ("function(_, n) return A(n), n end", None),
+            ("function(_, n) return A(n):b() end", None),
+            ("function(_, n) return A { n } end", None),
+            ("function(_, n) return { a = A(n) } end", None),
+            ("function(_, n) return nil end", None),
+        ] {
+            assert_eq!(text(function, production_of).as_deref(), expected, "{function}");
         }
     }
 

@@ -1,4 +1,4 @@
-//! Guards as expressions of numbers, which need no call of a function.
+//! Formulas of numbers, which need no call of a function.
 
 /// Maximum number of values that an evaluation holds at once.
 const DEEPEST: usize = 8;
@@ -6,22 +6,23 @@ const DEEPEST: usize = 8;
 /// Number of rows of arguments that are evaluated together.
 pub(crate) const ROWS: usize = 64;
 
-/// A guard that compares numbers.
+/// A formula of the arguments of a rule: a number, or a truth value of comparisons.
 ///
 /// ```
-/// use burgeon_rewriting::Condition;
+/// use burgeon_rewriting::Formula;
 ///
-/// let condition = Condition::read("a0 a1 + o0 < a1 0 > and", &[10.0]).expect("a condition");
 /// let rows = [[3.0, 4.0], [9.0, 4.0]];
-/// let mut holds = Vec::new();
 /// let fill = |argument: usize, column: &mut [f64]| (0..2).for_each(|row| column[row] = rows[row][argument]);
-/// assert!(condition.evaluate(2, fill, &mut holds));
-/// assert_eq!(holds, [1, 0]);
-/// assert!(!condition.evaluate(1, |_, column| column[0] = f64::NAN, &mut holds));
+/// let sum = Formula::read("a0 a1 + o0 *", &[10.0]).expect("a formula");
+/// assert_eq!(sum.evaluate(2, fill).map(|column| [column[0], column[1]]), Some([70.0, 130.0]));
+/// let condition = Formula::read("a0 a1 + 10 < a1 0 > and", &[]).expect("a formula");
+/// assert_eq!(condition.evaluate(2, fill).map(|column| [column[0], column[1]]), Some([1.0, 0.0]));
+/// assert!(condition.is_truth() && condition.evaluate(1, |_, column| column[0] = f64::NAN).is_none());
 /// ```
 #[derive(Debug, Clone, PartialEq)]
-pub struct Condition {
+pub struct Formula {
     operations: Vec<Operation>,
+    is_truth: bool,
 }
 
 /// Operation on the last values. Truth values are 1 and 0.
@@ -53,8 +54,8 @@ enum Operator {
     Or,
 }
 
-impl Condition {
-    /// Reads a condition in postfix notation: numbers, arguments `a0`, `a1` ... , the numbers `outer` as `o0`, `o1` ... , and
+impl Formula {
+    /// Reads a formula in postfix notation: numbers, arguments `a0`, `a1` ... , the numbers `outer` as `o0`, `o1` ... , and
     /// the operators of Lua, with `neg` for the negative number. Returns `None` for anything else.
     pub fn read(code: &str, outer: &[f64]) -> Option<Self> {
         let mut operations = Vec::new();
@@ -84,19 +85,21 @@ impl Condition {
                 return None;
             }
         }
-        (types == [true]).then_some(Self { operations })
+        let [is_truth] = *types.as_slice() else { return None };
+        Some(Self { operations, is_truth })
     }
 
-    /// Appends 1 or 0 to `holds` for each of at most 64 rows of arguments: 1 if the condition holds. `fill` writes the values of an
+    /// Returns true if the values are truth values, 1 or 0.
+    pub fn is_truth(&self) -> bool {
+        self.is_truth
+    }
+
+    /// Returns the value for each of at most 64 rows of arguments; the others have no meaning. `fill` writes the values of an
     /// argument to a column.
     ///
-    /// Returns false, with nothing appended, if a value is not a number, or NaN.
-    pub fn evaluate(
-        &self,
-        rows: usize,
-        mut fill: impl FnMut(usize, &mut [f64]),
-        holds: &mut Vec<u32>,
-    ) -> bool {
+    /// Returns `None` if a value is not a number, or NaN.
+    #[inline]
+    pub fn evaluate(&self, rows: usize, mut fill: impl FnMut(usize, &mut [f64])) -> Option<[f64; ROWS]> {
         let rows = rows.min(ROWS);
         let mut columns = [[0.0; ROWS]; DEEPEST];
         let mut count = 0;
@@ -110,7 +113,7 @@ impl Condition {
                     let column = &mut columns[count][..rows];
                     fill(index, column);
                     if column.iter().any(|value| value.is_nan()) {
-                        return false;
+                        return None;
                     }
                     count += 1;
                 }
@@ -123,11 +126,11 @@ impl Condition {
                 }
             }
         }
-        holds.extend(columns[0][..rows].iter().map(|value| u32::from(*value != 0.0)));
-        true
+        let column = columns[0];
+        column[..rows].iter().all(|value| !value.is_nan()).then_some(column)
     }
 
-    /// Returns the indices of the arguments that the condition reads.
+    /// Returns the indices of the arguments that the formula reads.
     pub fn arguments(&self) -> impl Iterator<Item = usize> {
         self.operations.iter().filter_map(|operation| match operation {
             Operation::Argument(index) => Some(*index),
@@ -202,7 +205,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_condition_has_operands_of_its_operators() {
+    fn a_formula_has_operands_of_its_operators() {
         let outer = [0.0];
         for code in [
             "",
@@ -217,10 +220,10 @@ mod tests {
             "o1 1 <",
             "x 1 <",
         ] {
-            assert_eq!(Condition::read(code, &outer), None, "{code}");
+            assert_eq!(Formula::read(code, &outer), None, "{code}");
         }
         let deep = format!("{}{}1 <", "a0 ".repeat(DEEPEST + 1), "+ ".repeat(DEEPEST));
-        assert_eq!(Condition::read(&deep, &outer), None);
+        assert_eq!(Formula::read(&deep, &outer), None);
     }
 
     #[test]
@@ -236,10 +239,9 @@ mod tests {
             ("a0 1 < a1 1 < and", [3.0, 0.0], false),
             ("true false and not", [0.0, 0.0], true),
         ] {
-            let condition = Condition::read(code, &[]).unwrap();
-            let mut holds = Vec::new();
-            assert!(condition.evaluate(1, |index, column| column[0] = arguments[index], &mut holds));
-            assert_eq!(holds, [u32::from(expected)], "{code}");
+            let condition = Formula::read(code, &[]).unwrap();
+            let values = condition.evaluate(1, |index, column| column[0] = arguments[index]);
+            assert_eq!(values.map(|values| values[0]), Some(f64::from(expected)), "{code}");
         }
     }
 }
