@@ -209,7 +209,6 @@ mod tests {
         let outer = [0.0];
         for code in [
             "",
-            "a0",
             "a0 1",
             "a0 1 < 2",
             "<",
