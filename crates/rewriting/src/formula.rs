@@ -207,18 +207,9 @@ mod tests {
     #[test]
     fn a_formula_has_operands_of_its_operators() {
         let outer = [0.0];
-        for code in [
-            "",
-            "a0 1",
-            "a0 1 < 2",
-            "<",
-            "1 <",
-            "a0 1 < a0 and",
-            "a0 not",
-            "a0 1 < neg",
-            "o1 1 <",
-            "x 1 <",
-        ] {
+        for code in
+            ["", "a0 1", "a0 1 < 2", "<", "1 <", "a0 1 < a0 and", "a0 not", "a0 1 < neg", "o1 1 <", "x 1 <"]
+        {
             assert_eq!(Formula::read(code, &outer), None, "{code}");
         }
         let deep = format!("{}{}1 <", "a0 ".repeat(DEEPEST + 1), "+ ".repeat(DEEPEST));

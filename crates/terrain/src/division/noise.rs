@@ -1,16 +1,44 @@
 //! Deterministic smooth noise between -1 and 1.
 
+use std::cell::RefCell;
+
 use glam::{DVec2, DVec3};
 
-/// Returns value noise at `place`, with a feature size of 1.
-fn noise(place: DVec2, seed: u64) -> f64 {
+/// Cell of the noise of a seed.
+#[derive(Clone, Copy)]
+struct NoiseCell {
+    /// Corner with the least coordinates.
+    place: DVec2,
+    seed: u64,
+    /// Numbers of the corners: near left, near right, far left and far right.
+    corners: [f64; 4],
+}
+
+/// Number of cells that a thread keeps.
+const CELLS: usize = 16;
+
+thread_local! {
+    /// The last cells: places often follow each other in rows, and the cells of the coarse octaves are large.
+    static LAST_CELLS: RefCell<[NoiseCell; CELLS]> =
+        const { RefCell::new([NoiseCell { place: DVec2::NAN, seed: 0, corners: [0.0; 4] }; CELLS]) };
+}
+
+/// Returns value noise at `place`, with a feature size of 1. `last` is replaced by the cell of the place.
+fn noise(place: DVec2, seed: u64, last: &mut NoiseCell) -> f64 {
     let cell = DVec2::new(floor(place.x), floor(place.y));
     let part = place - cell;
     // Quintic interpolation has continuous curvature at the borders of cells.
     let ease = part * part * part * (part * (part * 6.0 - 15.0) + 10.0);
-    let at = |right: f64, down: f64| corner(cell.x + right, cell.y + down, seed);
-    let near = at(0.0, 0.0) + (at(1.0, 0.0) - at(0.0, 0.0)) * ease.x;
-    let far = at(0.0, 1.0) + (at(1.0, 1.0) - at(0.0, 1.0)) * ease.x;
+    // The two zeros have different corners.
+    let is_last = |a: f64, b: f64| a.to_bits() == b.to_bits();
+    if last.seed != seed || !is_last(last.place.x, cell.x) || !is_last(last.place.y, cell.y) {
+        let at = |right: f64, down: f64| corner(cell.x + right, cell.y + down, seed);
+        let corners = [at(0.0, 0.0), at(1.0, 0.0), at(0.0, 1.0), at(1.0, 1.0)];
+        *last = NoiseCell { place: cell, seed, corners };
+    }
+    let [near_left, near_right, far_left, far_right] = last.corners;
+    let near = near_left + (near_right - near_left) * ease.x;
+    let far = far_left + (far_right - far_left) * ease.x;
     near + (far - near) * ease.y
 }
 
@@ -30,13 +58,18 @@ fn noise(place: DVec2, seed: u64) -> f64 {
 ///     assert!(at(x).abs() <= 1.0 && (at(x) - at(x + 1e-6)).abs() < 1e-4);
 /// }
 /// ```
+#[allow(clippy::cast_possible_truncation, reason = "the lowest bits select a cell")]
 pub fn octaves(place: DVec2, octaves: u32, seed: u64) -> f64 {
     let (mut sum, mut whole, mut strength, mut scale) = (0.0, 0.0, 1.0, 1.0);
-    for octave in 0..octaves {
-        sum += noise(place * scale, seed.wrapping_add(u64::from(octave))) * strength;
-        whole += strength;
-        (strength, scale) = (strength * 0.5, scale * 2.03);
-    }
+    LAST_CELLS.with_borrow_mut(|cells| {
+        for octave in 0..octaves {
+            let seed = seed.wrapping_add(u64::from(octave));
+            let last = &mut cells[seed as usize % CELLS];
+            sum += noise(place * scale, seed, last) * strength;
+            whole += strength;
+            (strength, scale) = (strength * 0.5, scale * 2.03);
+        }
+    });
     if whole > 0.0 { sum / whole } else { 0.0 }
 }
 

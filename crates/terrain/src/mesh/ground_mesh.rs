@@ -35,6 +35,49 @@ fn key([x, y]: GridCorner) -> u64 {
     (x.cast_unsigned() << 32) | (y.cast_unsigned() & 0xFFFF_FFFF)
 }
 
+/// Number of a vertex that has none yet.
+const NONE: u32 = u32::MAX;
+/// Maximum number of corners of cells in a side of a tile whose numbers are in a table.
+const WIDEST: usize = 1025;
+
+/// Numbers of the vertices over a tile.
+struct KnownVertices {
+    /// Corner of the tile with the least coordinates.
+    first: GridCorner,
+    /// Logarithm of the width of the tile's cells.
+    shift: u32,
+    /// Number of corners of cells in a side of the tile; 0 for tiles that are too wide.
+    width: usize,
+    /// Numbers of the corners of cells, by rows.
+    of_cells: Vec<u32>,
+    /// Numbers of the others: corners of smaller cells of a neighbour, and samples.
+    others: FxHashMap<Vertex, u32>,
+}
+
+impl KnownVertices {
+    fn new(corners: [GridCorner; 4], shift: u32) -> Self {
+        let first = [0, 1].map(|axis| corners.iter().map(|corner| corner[axis]).min().unwrap_or(0));
+        let last = corners.iter().map(|corner| corner[0]).max().unwrap_or(0);
+        let width = usize::try_from((last - first[0]) >> shift).map_or(0, |cells| cells + 1);
+        let width = if width <= WIDEST { width } else { 0 };
+        Self { first, shift, width, of_cells: vec![NONE; width * width], others: FxHashMap::default() }
+    }
+
+    /// Returns the place of the number of a vertex.
+    fn number(&mut self, vertex: Vertex) -> &mut u32 {
+        if let Vertex::Corner([x, y]) = vertex {
+            let [right, down] = [x - self.first[0], y - self.first[1]];
+            let index = |at: i64| usize::try_from(at >> self.shift).ok().filter(|index| *index < self.width);
+            if (right | down) & ((1 << self.shift) - 1) == 0
+                && let (Some(right), Some(down)) = (index(right), index(down))
+            {
+                return &mut self.of_cells[down * self.width + right];
+            }
+        }
+        self.others.entry(vertex).or_insert(NONE)
+    }
+}
+
 impl<'a> GroundMesh<'a> {
     /// Computes the coarsest triangulation within `error` (m) of the ground at all corners of its cells, and
     /// at all samples of measured ground if cells are not larger than the sample distance.
@@ -129,14 +172,17 @@ impl<'a> GroundMesh<'a> {
     fn triangles(&self, number: usize) -> (Vec<Vertex>, Vec<[u32; 3]>) {
         let tile = &self.ground.tiles()[number];
         let mut vertices = Vec::new();
-        let mut known: FxHashMap<Vertex, u32> = FxHashMap::default();
+        let mut known =
+            KnownVertices::new(corners(tile.place, self.ground.finest()), self.grids[number].shift);
         let mut triangles = Vec::new();
         let mut add = |piece: [Vertex; 3]| {
             triangles.push(piece.map(|vertex| {
-                *known.entry(vertex).or_insert_with(|| {
+                let number = known.number(vertex);
+                if *number == NONE {
                     vertices.push(vertex);
-                    u32::try_from(vertices.len() - 1).unwrap_or(u32::MAX)
-                })
+                    *number = u32::try_from(vertices.len() - 1).unwrap_or(NONE);
+                }
+                *number
             }));
         };
         let samples = &self.samples[number];

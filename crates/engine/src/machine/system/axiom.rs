@@ -69,6 +69,11 @@ impl SystemDeclaration {
         }
     }
 
+    /// Returns true if the function of the axiom may change variables of the script.
+    pub(super) fn changes_variables(&self, machine: &Machine) -> bool {
+        matches!(&self.axiom, Some(DeclaredAxiom::Source(_, function)) if !is_pure(machine, function))
+    }
+
     /// Sets the random stream of a helper machine to the position of the leader, after a derivation.
     pub(crate) fn catch_up(&self, machine: &Machine) {
         if let Some(DeclaredAxiom::Source(..)) = self.axiom

@@ -327,8 +327,8 @@ impl SystemDeclaration {
         grammar.with_compatible_rules()
     }
 
-    /// Returns the formulas of a function that only calculates with numbers, which no hook can change, and the shape that it
-    /// returns.
+    /// Returns the formulas of a function that only calculates with numbers, and the shape that it returns. Only the function of an
+    /// axiom can still change variables in them.
     fn formulas_of(
         &self,
         machine: &Machine,
@@ -337,7 +337,7 @@ impl SystemDeclaration {
         type Found = (Option<String>, Option<Vec<f64>>, Option<usize>);
         let (code, outer, shape): Found = machine.prelude().formulas.call(function).ok()?;
         let (code, outer) = (code?, outer?);
-        if !outer.is_empty() && !self.hooks.is_empty() {
+        if !outer.is_empty() && self.changes_variables(machine) {
             return None;
         }
         let codes = code.split(';').filter(|code| !code.is_empty());
