@@ -400,3 +400,43 @@ fn an_endless_hook_is_stopped_by_the_time_limit() {
     let failed = super::scripts::try_run(script, options).err().expect("it never ends").to_string();
     assert!(failed.contains("time"), "{failed}");
 }
+
+#[test]
+fn hooks_between_events_have_the_same_effect_whether_or_not_the_chain_is_whole() {
+    let script = |asked: &str, moment: &str| {
+        format!(
+            "local S, I = module('S'), module('I', 'at')
+             local v = variables({{ rate = 1 }})
+             local s = lsystem {{ variables = v }}
+             local list = {{}}
+             for i = 1, 700 do
+                 list[i] = if i % 50 == 0 then I(0) else if i % 7 == 0 then {{ S(), S() }} else S()
+             end
+             s:axiom(sequence(list))
+             s:rule('I < S', {{ propensity = function() return v.rate end }}, function() return I(time()) end)
+             s:rule('S > I', {{ propensity = 0.5, group = 'late' }}, function() return I(random()) end)
+             s:after_step(function(now)
+                 {asked}
+                 if now.step % 20 == 0 then print(now.step, now.modules, now.counts.I, now.time) end
+                 if now.step % 9 == 0 then v.rate += 0.25 end
+                 if now.step == 50 then use_group('late') end
+             end)
+             s:before_step(function(now)
+                 if now.step == 33 then return S(), I(now.time), S(), sequence(now.chain) end
+                 if now.step == 90 then use_group() end
+                 if now.step == 77 or now.step == 78 then print(#now.chain, random()) end
+             end)
+             s:{moment}(function(now) if now.step == 150 then stop() end end)
+             local derived = s:derive(400)
+             print(derived.steps, derived.time)"
+        )
+    };
+    for (moment, steps) in [("after_step", "150\t"), ("before_step", "150\t")] {
+        let asked = "if now.step < 0 then query('select count(*) as n from S') end";
+        let (alone, together) = (script(asked, moment), script("", moment));
+        let printed = prints(&together);
+        assert_eq!(printed, prints(&alone));
+        assert!(printed.len() == 10 && printed[9].starts_with(steps), "{printed:?}");
+        assert_eq!(all_chains(&run(&together)), all_chains(&run(&alone)));
+    }
+}

@@ -81,6 +81,7 @@ pub(super) fn derive(
         decomposition_reads_step: false,
         group: None,
         variables_changed: false,
+        early_hooks: None,
         has_cut: false,
         has_ever_cut: false,
         checkpoints,

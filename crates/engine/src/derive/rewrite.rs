@@ -3,6 +3,7 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use super::hooks::EventHooks;
 use super::interpret::InterpretationPass;
 use super::passes::Interpret;
 use super::pending::{Resolution, resolve};
@@ -14,8 +15,8 @@ use crate::results::Step;
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_base::text::grouped;
 use burgeon_rewriting::{
-    Chain, CutChain, EventSeries, PLACEHOLDERS, Phase, PhaseOutcome, PlaceFollower, SeriesChain, StepSeries,
-    Stepper, cut, module_brief, placeholder,
+    Chain, ChainsBetween, CutChain, EventSeries, PLACEHOLDERS, Phase, PhaseOutcome, PlaceFollower,
+    SeriesChain, StepSeries, Stepper, cut, module_brief, placeholder,
 };
 
 /// Removes the modules that cut branches, with what follows them in their branches.
@@ -194,7 +195,8 @@ fn perform_events_of(
     chain: Arc<Chain>,
     number: usize,
 ) -> Result<PhaseOutcome> {
-    let Derivation { plan, declared, limit, until, last_only, .. } = state.derivation;
+    let derivation = state.derivation;
+    let Derivation { plan, declared, limit, until, last_only, .. } = derivation;
     let machine = state.leader.machine;
     let session = &machine.session;
     let begin = Instant::now();
@@ -203,6 +205,9 @@ fn perform_events_of(
     let has_changed_variables = std::mem::take(&mut state.variables_changed);
     let evolves = plan.environments.is_some();
     let is_asked = !*last_only && plan.objects.is_some();
+    let mut hooks = EventHooks::new(state.leader, derivation, state.group);
+    let mut between = |chains: &ChainsBetween, number: usize| hooks.run(chains, number);
+    let has_hooks = state.has_step_hooks();
     let mut outcome = perform_events(
         machine,
         plan,
@@ -219,9 +224,13 @@ fn perform_events_of(
                 session.progress.note(number, *limit, symbols);
                 !session.has_many_unused()
             },
+            between: has_hooks.then_some(&mut between),
         },
     )?;
     plan.set_places(None);
+    state.variables_changed |= hooks.early.is_some() && hooks.has_changed_variables;
+    state.early_hooks = hooks.early;
+    state.use_group(hooks.group);
     state.times.read += outcome.read;
     state.times.rewriting += begin.elapsed();
     state.record(&chain, std::mem::take(&mut outcome.applied), number);
