@@ -128,7 +128,12 @@ impl<'a> EventHooks<'a> {
         self.has_changed_variables = take_variables(leader, derivation);
         let asks = view.as_ref().is_some_and(|view| view.is_last || view.is_replaced || view.group != group);
         if ends || asks || self.group != group {
-            self.early = Some(EarlyHooks { number, ends, view });
+            // The phase needs only a chain that has replaced the other, and the series takes its own back.
+            let release = |view: HookView| match view.is_replaced {
+                true => view,
+                false => HookView { chain: HookChain::Whole(Arc::default()), ..view },
+            };
+            self.early = Some(EarlyHooks { number, ends, view: view.map(release) });
             return Ok(EventsNext::End);
         }
         enter(leader.machine, &derivation.plan)?;
