@@ -66,6 +66,7 @@ impl Phase<DerivationState<'_>> for RunHooks {
             }
         };
         state.use_group(view.group);
+        state.is_last_step |= view.is_last;
         state.variables_changed |= take_variables(leader, derivation);
         let made = match view.is_replaced {
             false => chain,

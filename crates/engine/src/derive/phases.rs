@@ -82,6 +82,7 @@ pub(super) fn derive(
         group: None,
         variables_changed: false,
         early_hooks: None,
+        is_last_step: false,
         has_cut: false,
         has_ever_cut: false,
         checkpoints,

@@ -201,7 +201,7 @@ fn perform_events_of(
     let session = &machine.session;
     let begin = Instant::now();
     let ends_at: Vec<_> = (0..PLACEHOLDERS).map(placeholder).chain(plan.cut).collect();
-    let is_observed = !state.performs_events_together();
+    let is_alone = state.is_last_step || !state.performs_events_together();
     let has_changed_variables = std::mem::take(&mut state.variables_changed);
     let evolves = plan.environments.is_some();
     let is_asked = !*last_only && plan.objects.is_some();
@@ -216,7 +216,7 @@ fn perform_events_of(
         &chain,
         &mut EventSeries {
             first: number,
-            last: if is_observed { number } else { *limit },
+            last: if is_alone { number } else { *limit },
             until: *until,
             is_changed: has_changed_variables || evolves || is_asked || session.asks_for_chains(),
             ends_at: &ends_at,

@@ -49,6 +49,8 @@ pub(super) struct DerivationState<'a> {
     pub(super) variables_changed: bool,
     /// Hooks that have run before their phases, during a series of events.
     pub(super) early_hooks: Option<EarlyHooks>,
+    /// Set if a hook has requested that the step that begins is the last.
+    pub(super) is_last_step: bool,
     /// Set if branches were cut at the beginning of the step.
     pub(super) has_cut: bool,
     /// Set if branches were cut in any step.

@@ -26,10 +26,26 @@ impl HookChain {
     pub(crate) fn whole(&mut self) -> Arc<Chain> {
         let whole = match self {
             Self::Whole(chain) => return Arc::clone(chain),
-            Self::Between(chains) => Arc::new(chains.whole()),
+            Self::Between(chains) => Arc::clone(chains.whole()),
         };
         *self = Self::Whole(Arc::clone(&whole));
         whole
+    }
+
+    /// Returns the number of modules, without brackets and ends.
+    fn modules(&self) -> usize {
+        match self {
+            Self::Whole(chain) => chain.modules(),
+            Self::Between(chains) => chains.symbols().flatten().filter(|symbol| **symbol > END).count(),
+        }
+    }
+
+    /// Returns the names of the declared modules, and their numbers in the chain.
+    fn counts<'a>(&self, symbols: &'a Symbols) -> Vec<(&'a str, usize)> {
+        match self {
+            Self::Whole(chain) => symbols.counts(chain),
+            Self::Between(chains) => symbols.counts_of(chains.symbols()),
+        }
     }
 }
 
@@ -124,8 +140,8 @@ pub(super) fn add_hooks(lua: &Lua, host: &Table, current: &Rc<WorkState>) -> mlu
     host.set(
         "now",
         lua.create_function(move |lua, name: String| {
-            let mut hook = state.hook.borrow_mut();
-            let view = hook.as_mut().ok_or_else(|| mlua::Error::external(Error::internal("no hook runs")))?;
+            let hook = state.hook.borrow();
+            let view = hook.as_ref().ok_or_else(|| mlua::Error::external(Error::internal("no hook runs")))?;
             #[allow(clippy::cast_precision_loss, reason = "counts below 2^53")]
             let number = |count: usize| LuaValue::Number(count as f64);
             Ok(match name.as_str() {
@@ -135,10 +151,10 @@ pub(super) fn add_hooks(lua: &Lua, host: &Table, current: &Rc<WorkState>) -> mlu
                     drop(hook);
                     LuaValue::Table(read_chain(lua, &state).map_err(mlua::Error::external)?)
                 }
-                "modules" => number(view.chain.whole().modules()),
+                "modules" => number(view.chain.modules()),
                 "counts" => {
                     let counts = lua.create_table()?;
-                    for (name, count) in view.symbols.counts(&view.chain.whole()) {
+                    for (name, count) in view.chain.counts(&view.symbols) {
                         counts.raw_set(name, count)?;
                     }
                     counts.set_readonly(true);

@@ -33,7 +33,7 @@ fn crate_events(
         // The chains between events are those of requests for single events.
         let mut seen = Vec::new();
         let mut between = |chains: &ChainsBetween, number: usize| {
-            seen.push((number - 1, prepared.read(&chains.whole()), chains.time()));
+            seen.push((number - 1, prepared.read(chains.whole()), chains.time()));
             Ok([EventsNext::Continue, EventsNext::Recompute, EventsNext::End][number % 3])
         };
         let mut series = EventSeries {
