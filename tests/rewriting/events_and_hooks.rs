@@ -132,7 +132,10 @@ fn a_hook_ends_events_in_its_step() {
 fn the_failure_of_a_hook_between_events_names_the_hook() {
     let hook = "s:after_step(function(now)\nif now.step == 20 then error('too late') end end)";
     let text = error(&script(1, hook, "60"));
-    assert!(text.contains("main.lua:13") && text.contains("too late") && text.contains("after_step (hook)"), "{text}");
+    assert!(
+        text.contains("main.lua:13") && text.contains("too late") && text.contains("after_step (hook)"),
+        "{text}"
+    );
     let alone = error(&script(1, &format!("{hook}\ns:at_end(function(now) {ALONE} end)"), "60"));
     assert_eq!(in_script(&text), in_script(&alone));
 }

@@ -206,7 +206,13 @@ fn perform_events_of(
     let evolves = plan.environments.is_some();
     let is_asked = !*last_only && plan.objects.is_some();
     let mut hooks = EventHooks::new(state.leader, derivation, state.group);
-    let mut between = |chains: &ChainsBetween, number: usize| hooks.run(chains, number);
+    let mut hooking = Duration::ZERO;
+    let mut between = |chains: &ChainsBetween, number: usize| {
+        let begin = Instant::now();
+        let next = hooks.run(chains, number);
+        hooking += begin.elapsed();
+        next
+    };
     let has_hooks = state.has_step_hooks();
     let mut outcome = perform_events(
         machine,
@@ -232,7 +238,7 @@ fn perform_events_of(
     state.early_hooks = hooks.early;
     state.use_group(hooks.group);
     state.times.read += outcome.read;
-    state.times.rewriting += begin.elapsed();
+    state.times.rewriting += begin.elapsed().saturating_sub(hooking);
     state.record(&chain, std::mem::take(&mut outcome.applied), number);
     state.previous = Some(chain);
     // Hooks and environments can make events possible although no module changes.
