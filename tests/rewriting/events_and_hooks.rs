@@ -139,3 +139,25 @@ fn the_failure_of_a_hook_between_events_names_the_hook() {
     let alone = error(&script(1, &format!("{hook}\ns:at_end(function(now) {ALONE} end)"), "60"));
     assert_eq!(in_script(&text), in_script(&alone));
 }
+
+#[test]
+fn a_hook_that_can_end_events_does_not_make_a_drawing_after_each_of_them() {
+    let drawn = |stop: &str, more: &str| {
+        let script = format!(
+            "local S, I = module('S'), module('I')
+             local s = lsystem({{ object = turtle() }})
+             s:axiom(sequence(table.create(30, S())))
+             s:rule('S', {{ propensity = 1 }}, function() return I() end)
+             s:interpret('S', function(this) this:forward(1) {more} end)
+             s:interpret('I', function(this) this:forward(2) end)
+             s:after_step(function(now) if now.step == 20 then {stop} end end)
+             s:derive()"
+        );
+        let run = run(&script);
+        let uses = run.systems[0].rules.iter().filter(|rule| rule.interprets).map(|rule| rule.done.applied);
+        (run.systems[0].steps, uses.sum::<usize>())
+    };
+    assert_eq!(drawn("stop()", ""), (20, 30));
+    // An interpretation that can end the derivation runs after each step: on the axiom, and after 20 events.
+    assert_eq!(drawn("stop()", "if false then stop() end"), (20, 21 * 30));
+}

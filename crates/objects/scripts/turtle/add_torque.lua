@@ -1,4 +1,4 @@
--- Twigs with leaves at both sides, rolled by 80 degrees: behind, a torque rolls the leaves until they face upwards.
+-- Twigs with leaves on both sides that begin on edge; on the right, a torque rolls the twig until they face upwards.
 local Twig = module("Twig", "y", "strength")
 local twigs = lsystem({ object = turtle({ width = 0.05, color = "#7a6248" }) })
 twigs:axiom({ Twig(0, 0) }, { Twig(1.6, 0.35) })
@@ -9,7 +9,7 @@ twigs:interpret("Twig(y, strength)", function(this, y, strength)
     local base, along, left = this:position(), this:heading(), this:left()
     for side = -1, 1, 2 do
       this:begin_polygon()
-      for _, corner in { { 0, 0 }, { 0.08, 0.22 }, { 0.22, 0.5 }, { 0.26, 0.22 } } do
+      for _, corner in { { 0, 0 }, { 0, 0.2 }, { 0.1, 0.36 }, { 0.24, 0.46 }, { 0.26, 0.28 }, { 0.18, 0.1 } } do
         this:jump(base + along * corner[1] + left * corner[2] * side):point()
       end
       this:end_polygon()

@@ -137,7 +137,7 @@ fn a_surface_twists_to_the_sides_of_its_points_and_is_smooth_between_them() {
         let near = |angle: &f64| (angle - expected).abs().min(90.0 - (angle - expected).abs()) < 1e-3;
         assert!(found.len() >= 4 && found.iter().all(near), "{found:?} at {z}");
     }
-    let untwisted = points.map(|point| CylinderPoint { side: Some(DVec3::X), ..point });
+    let untwisted = points.clone().map(|point| CylinderPoint { side: Some(DVec3::X), ..point });
     let straight = points.map(|point| CylinderPoint { side: None, ..point });
     assert_eq!(cylinder(&untwisted, 4), cylinder(&straight, 4));
 }
