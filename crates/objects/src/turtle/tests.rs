@@ -318,7 +318,7 @@ fn a_cylinder_twists_with_the_turtle_if_it_is_asked_to() {
         let parts = drawn(&turtle);
         assert!(check(parts.clone()).is_solid() && (volume(parts.clone()) - 36.0).abs() < 1.0);
         let top = parts[0].positions.iter().filter(|at| (at.z - 9.0).abs() < 1e-5);
-        let far = top.filter(|at| at.truncate().length() > 1.3);
+        let far = top.filter(|at| at.truncate().length() > 1.41);
         // Angle (degrees) of a corner, modulo a quarter turn.
         far.map(|at| (f64::from(at.y).atan2(f64::from(at.x)).to_degrees() - 45.0).rem_euclid(90.0)).next()
     };

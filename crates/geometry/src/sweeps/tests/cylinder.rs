@@ -128,7 +128,8 @@ fn a_surface_twists_to_the_sides_of_its_points_and_is_smooth_between_them() {
     assert!((volume([&part]) - 3.0).abs() < 0.05, "{}", volume([&part]));
     // Angles (degrees) of a corner at each height, modulo a quarter turn.
     let corner = |z: f64| {
-        let at = part.positions.iter().filter(|at| (f64::from(at.z) - z).abs() < 1e-6);
+        let is_corner = |at: &&Vec3| (f64::from(at.z) - z).abs() < 1e-6 && at.truncate().length() > 0.707;
+        let at = part.positions.iter().filter(is_corner);
         let angles = at.map(|at| f64::from(at.y).atan2(f64::from(at.x)).to_degrees() - 45.0);
         angles.map(|angle| angle.rem_euclid(90.0)).collect::<Vec<_>>()
     };
