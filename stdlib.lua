@@ -2,6 +2,8 @@
 -- Burgeon's standard library: the names of every script besides Luau's own. It returns a table of these names.
 
 local describe_plain: (value: any) -> string, refuse_plain: (message: string) -> never = __describe, __refuse
+-- table.freeze for tables whose metatable has no lock, in half the time.
+local freeze: (value: any) -> any = __freeze
 -- The letters in patterns and strings that are no modules: their names with parameters.
 local undeclared_letters: (patterns: { string }, strings: { string }) -> { { string } } = __letters
 -- The channels of a colour as text, from 0 to 1: red, green, blue and opacity. Otherwise the nearest name, or nothing.
@@ -61,11 +63,11 @@ end
 
 --- Vectors are values, so nothing can change one that others have.
 local function made(x, y, z)
-  return table.freeze(setmetatable({ x = x, y = y, z = z }, Vec))
+  return freeze(setmetatable({ x = x, y = y, z = z }, Vec))
 end
 
 local function finite(x: number, y: number, z: number)
-  -- A number that is not finite is not 0 at a distance from itself.
+  -- The difference of a number that is not finite from itself is not 0.
   if x - x + (y - y) + (z - z) ~= 0 then
     local axis, value = "z", z
     if x - x ~= 0 then
@@ -117,8 +119,14 @@ type Vector = any
 --- Creates a vector from three numbers, or from a list of them; omitted numbers at the end are 0.
 local function vec(...: any): Vector
   local x, y, z, more = ...
-  if type(x) == "number" and type(y) == "number" and type(z) == "number" and more == nil then
-    return finite(x, y, z)
+  if
+    type(x) == "number"
+    and type(y) == "number"
+    and type(z) == "number"
+    and more == nil
+    and x - x + (y - y) + (z - z) == 0
+  then
+    return freeze(setmetatable({ x = x, y = y, z = z }, Vec))
   end
   return from_others(...)
 end

@@ -9,7 +9,7 @@ use burgeon::script::RunOptions;
 use cpu_time::ThreadTime;
 
 /// Systems that add modules at one place, with the largest number of steps.
-const SYSTEMS: [(&str, usize, &str); 11] = [
+const SYSTEMS: [(&str, usize, &str); 12] = [
     ("growth", 80_000, "s:axiom(A()) s:rule('A', function() return F(), A() end)"),
     ("nested branches", 80_000, "s:axiom(A()) s:rule('A', function() return F(), { A() } end)"),
     ("left context", 80_000, "s:axiom(F(), A()) s:rule('F < A', function() return F(), A() end)"),
@@ -51,6 +51,13 @@ const SYSTEMS: [(&str, usize, &str); 11] = [
         20_000,
         "s:axiom(sequence(table.create(1000000, B(1))))
          s:rule('B(n)', { propensity = function(_, n) return n end }, function(_, n) return B(n + 1) end)",
+    ),
+    (
+        "events and hooks, a million modules",
+        20_000,
+        "s:axiom(sequence(table.create(1000000, B(1))))
+         s:rule('B(n)', { propensity = function(_, n) return n end }, function(_, n) return B(n + 1) end)
+         s:after_step(function(now) if now.time < 0 then stop() end end)",
     ),
     (
         "events with contexts, a million modules",

@@ -16,6 +16,7 @@ mod divisions;
 mod edits;
 mod environments;
 mod events;
+mod events_and_hooks;
 mod expectations;
 mod formulas;
 mod fragments;

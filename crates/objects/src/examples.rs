@@ -49,6 +49,7 @@ pub const EXAMPLES: &[ScriptExample] = examples! {
     "terrain/dig" shows "terrain:dig";
     "terrain/flatten" shows "terrain:flatten";
     "terrain/river" shows "terrain:river";
+    "turtle/add_torque" shows "turtle:add_torque";
     "turtle/add_tropism" shows "turtle:add_tropism";
     "turtle/advance" shows "turtle:advance";
     "turtle/begin_polygon" shows "turtle:begin_polygon" "turtle:point" "turtle:end_polygon";
@@ -65,6 +66,7 @@ pub const EXAMPLES: &[ScriptExample] = examples! {
     "turtle/pitch" shows "turtle:pitch" "turtle:pitch_up";
     "turtle/place" shows "turtle:place";
     "turtle/roll" shows "turtle:roll" "turtle:roll_back";
+    "turtle/scale" shows "turtle:scale";
     "turtle/shape" shows "turtle:shape";
     "turtle/sphere" shows "turtle:sphere";
     "turtle/surface" shows "turtle:surface";

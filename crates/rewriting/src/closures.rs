@@ -417,6 +417,7 @@ impl Phase<Stepper> for RewritePhase<'_> {
                 is_changed: false,
                 ends_at: &[],
                 watch: &mut |_, _| true,
+                between: None,
             };
             let outcome = stepper.perform_events(self.system, &stop, &chain, &mut series)?;
             return Ok(outcome.into_phase_outcome());

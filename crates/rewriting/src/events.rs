@@ -9,6 +9,7 @@ use crate::amounts::Amount;
 use crate::batch::{Active, Batch, ChainPiece};
 use crate::chain::{Chain, END, Mark, Symbol};
 use crate::event_chain::{EventChain, EventWork, drawn_event};
+use crate::events_between::{ChainsBetween, EventsNext, joined};
 use crate::phases::PhaseOutcome;
 use crate::propensities::PossibleEvent;
 use crate::rules::Rules;
@@ -38,6 +39,8 @@ pub struct EventSeries<'a> {
     /// Function that is called after each step with its number and the number of symbols. The series ends if it returns
     /// `false`.
     pub watch: &'a mut dyn FnMut(usize, usize) -> bool,
+    /// Function that is called between two steps, with the number of the second.
+    pub between: Option<&'a mut dyn FnMut(&ChainsBetween, usize) -> Result<EventsNext>>,
 }
 
 /// Result of events.
@@ -151,6 +154,18 @@ impl Stepper {
         let mut growth = vec![0; plan.grammar.rules().len()];
         for number in series.first..=series.last {
             stop.check()?;
+            if number > series.first
+                && let Some(between) = &mut series.between
+            {
+                let chains = ChainsBetween::new(std::mem::take(&mut state.chains), &state.times, &plan);
+                let next = between(&chains, number)?;
+                state.chains = chains.into_chains()?;
+                match next {
+                    EventsNext::Continue => {}
+                    EventsNext::Recompute => state.chains.iter_mut().for_each(EventChain::forget_events),
+                    EventsNext::End => break,
+                }
+            }
             let (finding, applying) = (StepNumber::new(number), StepNumber::new(number));
             let (mut occurs, mut is_watched, mut symbols) = (false, false, 0);
             for (index, (chain, key)) in state.chains.iter_mut().zip(&keys).enumerate() {
@@ -204,9 +219,7 @@ impl Stepper {
         self.outputs.push(work.spare);
         self.links = links;
         if is_changed {
-            let mut joined = joined(&state.chains);
-            joined.mark(plan.batch, plan.grammar.arities());
-            outcome.chain = Arc::new(joined);
+            outcome.chain = Arc::new(joined(&state.chains, &plan));
         }
         state.whole = Some(Arc::clone(&outcome.chain));
         self.events = state;
@@ -325,16 +338,4 @@ impl Chains<'_> {
 /// Returns the indices of the ends of chains.
 fn ends(chain: &Chain) -> impl Iterator<Item = usize> + '_ {
     chain.symbols.iter().enumerate().filter(|(_, symbol)| **symbol == END).map(|(index, _)| index)
-}
-
-/// Returns all chains, one after the other, without marks.
-fn joined(chains: &[EventChain]) -> Chain {
-    let mut joined = Chain::default();
-    joined.symbols.reserve_exact(chains.iter().map(|chain| chain.pieces().symbols).sum());
-    for segment in chains.iter().flat_map(|chain| &chain.pieces().segments) {
-        joined.symbols.extend_from_slice(&segment.chain.symbols);
-        joined.params.extend_from_slice(&segment.chain.params);
-        joined.keys.extend_from_slice(&segment.chain.keys);
-    }
-    joined
 }

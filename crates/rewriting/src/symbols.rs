@@ -258,8 +258,13 @@ impl Symbols {
     /// # Ok::<(), burgeon_base::Error>(())
     /// ```
     pub fn counts(&self, chain: &Chain) -> Vec<(&str, usize)> {
+        self.counts_of(std::iter::once(&*chain.symbols))
+    }
+
+    /// Returns the names of the declared modules and their numbers among `symbols`, which are parts of a chain.
+    pub fn counts_of<'a>(&self, symbols: impl Iterator<Item = &'a [Symbol]>) -> Vec<(&str, usize)> {
         let mut counts = vec![0; self.arities().len()];
-        chain.symbols.iter().for_each(|symbol| counts[usize::from(*symbol)] += 1);
+        symbols.flatten().for_each(|symbol| counts[usize::from(*symbol)] += 1);
         let declared = (FIRST_SYMBOL..).zip(counts.into_iter().skip(usize::from(FIRST_SYMBOL)));
         declared.map(|(symbol, count)| (self.display_name(symbol), count)).collect()
     }

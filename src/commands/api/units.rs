@@ -59,7 +59,7 @@ const COUNTS: [&str; 49] = [
 ];
 
 /// Fractions, probabilities, weights and factors.
-const FACTORS: [&str; 73] = [
+const FACTORS: [&str; 75] = [
     ".amount",
     ".metallic",
     ".noise",
@@ -127,9 +127,11 @@ const FACTORS: [&str; 73] = [
     "template.weight",
     "terrain.plants.size",
     "turtle.elasticity",
+    "turtle:add_torque elasticity",
     "turtle:add_tropism elasticity",
     "turtle:elasticity elasticity",
     "turtle:place scale",
+    "turtle:scale factor",
     "turtle:surface scale",
     "turtle:tropism elasticity",
     "vector:lerp t",

@@ -81,6 +81,8 @@ pub(super) fn derive(
         decomposition_reads_step: false,
         group: None,
         variables_changed: false,
+        early_hooks: None,
+        is_last_step: false,
         has_cut: false,
         has_ever_cut: false,
         checkpoints,

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use super::hooks::EventHooks;
 use super::interpret::InterpretationPass;
 use super::passes::Interpret;
 use super::pending::{Resolution, resolve};
@@ -14,8 +15,8 @@ use crate::results::Step;
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_base::text::grouped;
 use burgeon_rewriting::{
-    Chain, CutChain, EventSeries, PLACEHOLDERS, Phase, PhaseOutcome, PlaceFollower, SeriesChain, StepSeries,
-    Stepper, cut, module_brief, placeholder,
+    Chain, ChainsBetween, CutChain, EventSeries, PLACEHOLDERS, Phase, PhaseOutcome, PlaceFollower,
+    SeriesChain, StepSeries, Stepper, cut, module_brief, placeholder,
 };
 
 /// Removes the modules that cut branches, with what follows them in their branches.
@@ -194,15 +195,25 @@ fn perform_events_of(
     chain: Arc<Chain>,
     number: usize,
 ) -> Result<PhaseOutcome> {
-    let Derivation { plan, declared, limit, until, last_only, .. } = state.derivation;
+    let derivation = state.derivation;
+    let Derivation { plan, declared, limit, until, last_only, .. } = derivation;
     let machine = state.leader.machine;
     let session = &machine.session;
     let begin = Instant::now();
     let ends_at: Vec<_> = (0..PLACEHOLDERS).map(placeholder).chain(plan.cut).collect();
-    let is_observed = !state.performs_events_together();
+    let is_alone = state.is_last_step || !state.performs_events_together();
     let has_changed_variables = std::mem::take(&mut state.variables_changed);
     let evolves = plan.environments.is_some();
     let is_asked = !*last_only && plan.objects.is_some();
+    let mut hooks = EventHooks::new(state.leader, derivation, state.group);
+    let mut hooking = Duration::ZERO;
+    let mut between = |chains: &ChainsBetween, number: usize| {
+        let begin = Instant::now();
+        let next = hooks.run(chains, number);
+        hooking += begin.elapsed();
+        next
+    };
+    let has_hooks = state.has_step_hooks();
     let mut outcome = perform_events(
         machine,
         plan,
@@ -211,7 +222,7 @@ fn perform_events_of(
         &chain,
         &mut EventSeries {
             first: number,
-            last: if is_observed { number } else { *limit },
+            last: if is_alone { number } else { *limit },
             until: *until,
             is_changed: has_changed_variables || evolves || is_asked || session.asks_for_chains(),
             ends_at: &ends_at,
@@ -219,11 +230,15 @@ fn perform_events_of(
                 session.progress.note(number, *limit, symbols);
                 !session.has_many_unused()
             },
+            between: has_hooks.then_some(&mut between),
         },
     )?;
     plan.set_places(None);
+    state.variables_changed |= hooks.early.is_some() && hooks.has_changed_variables;
+    state.early_hooks = hooks.early;
+    state.use_group(hooks.group);
     state.times.read += outcome.read;
-    state.times.rewriting += begin.elapsed();
+    state.times.rewriting += begin.elapsed().saturating_sub(hooking);
     state.record(&chain, std::mem::take(&mut outcome.applied), number);
     state.previous = Some(chain);
     // Hooks and environments can make events possible although no module changes.

@@ -4,6 +4,7 @@ use std::cell::RefCell;
 use std::sync::Arc;
 
 use super::checkpoints::CheckpointWriter;
+use super::hooks::EarlyHooks;
 use super::interpret::{PassMemory, PassOutcome};
 use super::plan::Derivation;
 use super::rewriter::SystemRewriter;
@@ -46,6 +47,10 @@ pub(super) struct DerivationState<'a> {
     pub(super) group: Option<usize>,
     /// Set if a variable has changed since the step began.
     pub(super) variables_changed: bool,
+    /// Hooks that have run before their phases, during a series of events.
+    pub(super) early_hooks: Option<EarlyHooks>,
+    /// Set if a hook has requested that the step that begins is the last.
+    pub(super) is_last_step: bool,
     /// Set if branches were cut at the beginning of the step.
     pub(super) has_cut: bool,
     /// Set if branches were cut in any step.
@@ -71,17 +76,19 @@ impl DerivationState<'_> {
 
     /// Returns true if nothing observes the chains between the steps, so that several steps can run in one phase.
     pub(super) fn performs_series(&self) -> bool {
-        self.performs_events_together() && !self.leader.machine.session.observes_steps()
+        self.performs_events_together()
+            && !self.has_step_hooks()
+            && !self.leader.machine.session.observes_steps()
     }
 
-    /// Returns true if nothing needs the chains between events, so that several events can occur in one phase. Text that
+    /// Returns true if at most hooks need the chains between events, so that several events can occur in one phase. Text that
     /// their functions print is in order in any case.
     pub(super) fn performs_events_together(&self) -> bool {
         let Derivation { plan, last_only, .. } = self.derivation;
         (*last_only || plan.objects.is_none())
             && self.decomposer.is_none()
             && self.features.is_none()
-            && !self.has_step_hooks()
+            && !(self.has_step_hooks() && plan.environments.is_some())
             && !self.leader.machine.session.asks_for_chains()
     }
 

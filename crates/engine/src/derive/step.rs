@@ -75,7 +75,7 @@ pub(super) fn perform_events(
 }
 
 /// Prepares the leading machine for calls of the functions of a system.
-fn enter(machine: &Machine, plan: &DerivationPlan) -> Result<()> {
+pub(super) fn enter(machine: &Machine, plan: &DerivationPlan) -> Result<()> {
     machine.enter(plan.system)?;
     machine.refresh();
     plan.show_objects(machine);

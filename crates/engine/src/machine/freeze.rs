@@ -1,12 +1,35 @@
 //! Freezes the tables that rules can reach from outside, while the rules run.
 
 use std::borrow::Cow;
+use std::ffi::c_int;
 
 use mlua::{Function, Lua, Table, Value, ffi};
 use rustc_hash::FxHashSet;
 
 use super::types::DerivedHandle;
 use burgeon_base::error::{Error, Result, SourcePlace};
+
+/// Returns a function that makes a table read-only and returns it. `table.freeze` takes twice as long, because it searches the
+/// metatable for a lock.
+pub(super) fn freeze_function(lua: &Lua) -> mlua::Result<Function> {
+    #[allow(unsafe_code, reason = "a function of mlua takes longer than table.freeze")]
+    // SAFETY: `make_read_only` follows Luau's protocol for C functions.
+    unsafe {
+        lua.create_c_function(make_read_only)
+    }
+}
+
+#[allow(unsafe_code, reason = "called by Luau")]
+unsafe extern "C-unwind" fn make_read_only(state: *mut ffi::lua_State) -> c_int {
+    // SAFETY: the first argument is read only if it is a table. Returning fewer values than are on the stack is allowed.
+    unsafe {
+        ffi::lua_settop(state, 1);
+        if ffi::lua_type(state, 1) == ffi::LUA_TTABLE {
+            ffi::lua_setreadonly(state, 1, 1);
+        }
+    }
+    1
+}
 
 /// Function that rules run, with its name and location.
 pub(crate) struct ReachableFunction<'a> {

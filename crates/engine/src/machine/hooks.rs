@@ -11,19 +11,57 @@ use super::system::{HookFunction, replaced_chain};
 use super::types::{ReadChain, ReadableChain};
 use burgeon_base::error::{Error, Result};
 use burgeon_language::NOW;
-use burgeon_rewriting::{Chain, END, ModuleKey, Symbols};
+use burgeon_rewriting::{Chain, ChainsBetween, END, ModuleKey, Symbols};
+
+/// Chain that a hook reads.
+pub(crate) enum HookChain {
+    /// Chain between phases.
+    Whole(Arc<Chain>),
+    /// Chains between events, which become a whole chain once a hook reads them.
+    Between(ChainsBetween),
+}
+
+impl HookChain {
+    /// Returns the whole chain.
+    pub(crate) fn whole(&mut self) -> Arc<Chain> {
+        let whole = match self {
+            Self::Whole(chain) => return Arc::clone(chain),
+            Self::Between(chains) => Arc::clone(chains.whole()),
+        };
+        *self = Self::Whole(Arc::clone(&whole));
+        whole
+    }
+
+    /// Returns the number of modules, without brackets and ends.
+    fn modules(&self) -> usize {
+        match self {
+            Self::Whole(chain) => chain.modules(),
+            Self::Between(chains) => chains.symbols().flatten().filter(|symbol| **symbol > END).count(),
+        }
+    }
+
+    /// Returns the names of the declared modules, and their numbers in the chain.
+    fn counts<'a>(&self, symbols: &'a Symbols) -> Vec<(&'a str, usize)> {
+        match self {
+            Self::Whole(chain) => symbols.counts(chain),
+            Self::Between(chains) => symbols.counts_of(chains.symbols()),
+        }
+    }
+}
 
 /// State of a derivation that a hook reads, and its requests.
 pub(crate) struct HookView {
     pub(crate) step: usize,
     /// Time of the last event, the latest of all chains.
     pub(crate) time: f64,
-    pub(crate) chain: Arc<Chain>,
+    pub(crate) chain: HookChain,
     pub(crate) symbols: Arc<Symbols>,
     /// Names of the groups of rules.
     pub(crate) groups: Vec<Arc<str>>,
     /// Number of the group of rules in use; `None` for the rules without a group.
     pub(crate) group: Option<usize>,
+    /// Set once a hook has replaced the chain.
+    pub(crate) is_replaced: bool,
     /// Set once a hook has requested that no step follows.
     pub(crate) is_last: bool,
     /// Set if there is one chain, and the hooks run before anything sees it.
@@ -89,8 +127,8 @@ impl Machine {
                     ),
             });
         }
-        let chain = replaced_chain(self, returned, &view.chain, view.read.as_ref(), key)?;
-        view.chain = Arc::new(chain);
+        let chain = replaced_chain(self, returned, &view.chain.whole(), view.read.as_ref(), key)?;
+        (view.chain, view.is_replaced) = (HookChain::Whole(Arc::new(chain)), true);
         view.read = None;
         Ok(())
     }
@@ -116,7 +154,7 @@ pub(super) fn add_hooks(lua: &Lua, host: &Table, current: &Rc<WorkState>) -> mlu
                 "modules" => number(view.chain.modules()),
                 "counts" => {
                     let counts = lua.create_table()?;
-                    for (name, count) in view.symbols.counts(&view.chain) {
+                    for (name, count) in view.chain.counts(&view.symbols) {
                         counts.raw_set(name, count)?;
                     }
                     counts.set_readonly(true);
@@ -161,14 +199,15 @@ fn read_chain(lua: &Lua, state: &WorkState) -> Result<Table> {
     let read = match &mut view.read {
         Some(read) => read,
         unread => {
-            if view.chain.symbols.iter().filter(|symbol| **symbol == END).count() != 1 {
+            let chain = view.chain.whole();
+            if chain.symbols.iter().filter(|symbol| **symbol == END).count() != 1 {
                 return Err(Error::script(
                     "now.chain is the chain of a system with one chain, but this system has several",
                 )
                 .help("read their modules with query, such as query(\"select n from A\")"));
             }
             let readable =
-                ReadableChain { chain: &view.chain, symbols: &view.symbols, values: &state.session.values };
+                ReadableChain { chain: &chain, symbols: &view.symbols, values: &state.session.values };
             let read = ReadChain::read(lua, &readable).map_err(|error| Error::other(error.to_string()))?;
             unread.insert(read)
         }

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use mlua::{Buffer, Lua, LuaString, MultiValue, Table, Value as LuaValue, Variadic};
 
 use super::current::WorkState;
+use super::freeze::freeze_function;
 use super::native;
 use super::object_methods::{add_object_methods, values};
 use crate::machine::convert::{to_lua, to_value};
@@ -96,13 +97,7 @@ fn add_tables(lua: &Lua, host: &Table) -> mlua::Result<()> {
             Ok(function)
         })?,
     )?;
-    host.set(
-        "freeze",
-        lua.create_function(|_, table: Table| {
-            table.set_readonly(true);
-            Ok(())
-        })?,
-    )?;
+    host.set("freeze", freeze_function(lua)?)?;
     host.set(
         "told",
         lua.create_function(|lua, value: LuaValue| match value {

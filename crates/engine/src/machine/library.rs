@@ -8,6 +8,7 @@ use std::sync::Arc;
 use mlua::{Function, Lua, Table, Value as LuaValue, Variadic};
 use rustc_hash::{FxHashMap, FxHashSet};
 
+use super::freeze::freeze_function;
 use super::system::{EagerMark, SystemDeclaration, install_lazy, undeclared_letters};
 use super::table_classes::declare_class;
 use super::types::{Extension, ScriptTypeEntry, install_functions, install_kind};
@@ -267,6 +268,7 @@ impl Library {
             "__letters",
             "__refuse",
             "__describe",
+            "__freeze",
             "__color",
             "__modules_of_parts",
         ] {
@@ -408,6 +410,7 @@ impl Library {
                 Ok(lists.collect::<Vec<_>>())
             })?,
         )?;
+        globals.raw_set("__freeze", freeze_function(lua)?)?;
         globals.raw_set("__color", lua.create_function(|_, text: String| Ok(read_color(&text)))?)?;
         globals.raw_set(
             "__class",

@@ -40,7 +40,7 @@ pub use blank::make_ready;
 pub(crate) use current::{Flusher, WorkState};
 pub(crate) use driver::{DerivationRequest, Driver};
 pub(crate) use environments::Environments;
-pub(crate) use hooks::{HookView, group_number};
+pub(crate) use hooks::{HookChain, HookView, group_number};
 pub(crate) use module_places::ModulePlaces;
 pub(crate) use native::native;
 pub(crate) use prelude::{CLOSE_CALL, OPEN_CALL};

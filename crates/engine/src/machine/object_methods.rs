@@ -1,10 +1,11 @@
 //! Methods of objects that are not the drawn one, such as environments and features.
 
-use std::cell::OnceCell;
+use std::cell::{Cell, OnceCell};
+use std::ops::Deref;
 use std::rc::Rc;
 use std::sync::Arc;
 
-use mlua::{Lua, MultiValue, Table, Value as LuaValue, Variadic};
+use mlua::{Either, Lua, MultiValue, Table, UserDataRef, Value as LuaValue, Variadic};
 
 use super::convert::{to_argument, to_lua};
 use super::current::WorkState;
@@ -23,7 +24,9 @@ const LONG: usize = 256;
 type ObjectCall = (LuaValue, Option<usize>, MultiValue);
 
 /// Object, application whose guard makes the call (if any), and coordinates of the place (m) that is the only argument.
-type PlaceCall = (LuaValue, Option<usize>, f64, f64, f64);
+///
+/// A borrowed object needs no reference of its own to the script's value, which would cost a tenth of the call.
+type PlaceCall = (Either<UserDataRef<ObjectHandle>, LuaValue>, Option<usize>, f64, f64, f64);
 
 /// Adds the functions that make methods to `host`.
 pub(super) fn add_object_methods(
@@ -33,19 +36,14 @@ pub(super) fn add_object_methods(
     library: &Rc<Library>,
 ) -> mlua::Result<()> {
     let (owner, state) = (Rc::clone(library), Rc::clone(current));
-    let method = move |number, name| ObjectMethod {
-        number,
-        name,
-        state: Rc::clone(&state),
-        library: Rc::clone(&owner),
-    };
+    let method = move |number, name| ObjectMethod::new(number, name, Rc::clone(&state), Rc::clone(&owner));
     let made = method.clone();
     host.set(
         "object_method",
         lua.create_function(move |lua, (number, name): (usize, String)| {
             let method = made(number, name);
             lua.create_function(move |lua, (object, guard, arguments): ObjectCall| {
-                method.call(lua, &object, guard, || values(lua, &arguments))
+                method.call(lua, &*method.handle(&object)?, guard, || values(lua, &arguments))
             })
         })?,
     )?;
@@ -53,8 +51,13 @@ pub(super) fn add_object_methods(
         "place_method",
         lua.create_function(move |lua, (number, name): (usize, String)| {
             let method = method(number, name);
+            let place = Cell::default();
             lua.create_function(move |lua, (object, guard, x, y, z): PlaceCall| {
-                method.call(lua, &object, guard, || Ok(vec![Vector::from([x, y, z]).into_value()]))
+                let place = || Ok(PlaceArgument::new(&place, Vector::from([x, y, z])));
+                match object {
+                    Either::Left(handle) => method.call(lua, &handle, guard, place),
+                    Either::Right(object) => method.call(lua, &*method.handle(&object)?, guard, place),
+                }
             })
         })?,
     )?;
@@ -63,7 +66,7 @@ pub(super) fn add_object_methods(
         "parts_method",
         lua.create_function(move |lua, (name, arguments): (String, Variadic<LuaValue>)| {
             let (library, state) = (Rc::clone(&owner), Rc::clone(&state));
-            let method = ObjectMethod { number: usize::MAX, name, state, library };
+            let method = ObjectMethod::new(usize::MAX, name, state, library);
             let given = values(lua, arguments.iter())?;
             let division = OnceCell::new();
             lua.create_function(move |lua, object: LuaValue| {
@@ -74,24 +77,78 @@ pub(super) fn add_object_methods(
     host.set("vector_class", lua.create_function(|lua, ()| Ok(metatable_of(lua, "vec")))?)
 }
 
+/// A place as the only argument of a call, in memory that the next call uses again.
+struct PlaceArgument<'a> {
+    arguments: Vec<Value>,
+    memory: &'a Cell<Vec<Value>>,
+}
+
+impl<'a> PlaceArgument<'a> {
+    fn new(memory: &'a Cell<Vec<Value>>, place: Vector) -> Self {
+        let mut arguments = memory.take();
+        match arguments.first_mut() {
+            Some(value) => place.store_in(value),
+            None => arguments.push(place.into_value()),
+        }
+        Self { arguments, memory }
+    }
+}
+
+impl Deref for PlaceArgument<'_> {
+    type Target = [Value];
+
+    fn deref(&self) -> &[Value] {
+        &self.arguments
+    }
+}
+
+impl Drop for PlaceArgument<'_> {
+    fn drop(&mut self) {
+        self.memory.set(std::mem::take(&mut self.arguments));
+    }
+}
+
 /// Method of an object that is not the drawn one.
 struct ObjectMethod {
     /// Number among the methods of its type.
     number: usize,
     /// Name of the type and of the method.
     name: String,
+    /// Place of the method's own name in `name`.
+    own: usize,
     state: Rc<WorkState>,
     library: Rc<Library>,
 }
 
 impl ObjectMethod {
+    fn new(number: usize, name: String, state: Rc<WorkState>, library: Rc<Library>) -> Self {
+        let own = name.find(':').map_or(0, |colon| colon + 1);
+        Self { number, name, own, state, library }
+    }
+
+    /// Returns the name of the method without the type.
+    fn own_name(&self) -> &str {
+        &self.name[self.own..]
+    }
+
+    /// Returns the handle of the object whose method a script calls.
+    fn handle(&self, object: &LuaValue) -> mlua::Result<UserDataRef<ObjectHandle>> {
+        match object {
+            LuaValue::UserData(data) => data.borrow::<ObjectHandle>(),
+            _ => Err(mlua::Error::external(
+                Error::argument(format!("{} needs its object", self.name))
+                    .help(format!("call it with a colon: object:{}()", self.own_name())),
+            )),
+        }
+    }
+
     /// Calls the method with `arguments`. `guard` is the application whose guard calls it, if one does.
-    fn call(
+    fn call<A: Deref<Target = [Value]>>(
         &self,
         lua: &Lua,
-        object: &LuaValue,
+        object: &ObjectHandle,
         guard: Option<usize>,
-        arguments: impl FnOnce() -> mlua::Result<Vec<Value>>,
+        arguments: impl FnOnce() -> mlua::Result<A>,
     ) -> mlua::Result<LuaValue> {
         let answer = self.answer(object, guard, arguments)?;
         // The complete result stays alive, so a collection would free nothing of it.
@@ -125,7 +182,7 @@ impl ObjectMethod {
             }
             // Arguments that cannot be prepared are refused, with the reason.
             None => {
-                self.answer(object, None, || Ok(arguments.to_vec()))?;
+                self.answer(&*self.handle(object)?, None, || Ok(arguments.to_vec()))?;
                 Vec::new()
             }
         };
@@ -147,8 +204,7 @@ impl ObjectMethod {
         let LuaValue::UserData(data) = object else { return Ok(None) };
         let object = Arc::clone(&data.borrow::<ObjectHandle>()?.0);
         let Some(divide) = object.capability::<dyn IntoParts>() else { return Ok(None) };
-        let (_, own_name) = self.name.split_once(':').unwrap_or(("", &self.name));
-        let prepared = division.get_or_init(|| divide.prepare_parts(own_name, arguments));
+        let prepared = division.get_or_init(|| divide.prepare_parts(self.own_name(), arguments));
         Ok(prepared.as_ref().map(|division| (Arc::clone(&object), division)))
     }
 
@@ -161,20 +217,13 @@ impl ObjectMethod {
     }
 
     /// Returns what the method answers.
-    fn answer(
+    fn answer<A: Deref<Target = [Value]>>(
         &self,
-        object: &LuaValue,
+        handle: &ObjectHandle,
         guard: Option<usize>,
-        arguments: impl FnOnce() -> mlua::Result<Vec<Value>>,
+        arguments: impl FnOnce() -> mlua::Result<A>,
     ) -> mlua::Result<Value> {
-        let (_, own_name) = self.name.split_once(':').unwrap_or(("", &self.name));
-        let LuaValue::UserData(data) = object else {
-            return Err(mlua::Error::external(
-                Error::argument(format!("{} needs its object", self.name))
-                    .help(format!("call it with a colon: object:{own_name}()")),
-            ));
-        };
-        let handle = data.borrow::<ObjectHandle>()?;
+        let own_name = self.own_name();
         // A type that inherits from another type numbers its methods differently.
         let kind = handle.0.kind();
         let known = kind.methods.get(self.number).filter(|known| *known.name == *own_name);

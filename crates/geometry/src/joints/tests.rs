@@ -66,7 +66,7 @@ fn topology(part: &Part) -> Topology {
 }
 
 fn point(position: DVec3, radius: f64) -> CylinderPoint {
-    CylinderPoint { position, radius, contour: None }
+    CylinderPoint { position, radius, contour: None, side: None }
 }
 
 fn axis(points: &[(DVec3, f64)], parent: Option<(usize, usize)>) -> JointAxis {

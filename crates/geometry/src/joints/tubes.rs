@@ -32,7 +32,12 @@ const MOST_ADDED: usize = 1 << 22;
 /// use burgeon_scene::Part;
 /// use glam::DVec3;
 ///
-/// let point = |x: f64, z: f64| CylinderPoint { position: DVec3::new(x, 0.0, z), radius: 0.1, contour: None };
+/// let point = |x: f64, z: f64| CylinderPoint {
+///     position: DVec3::new(x, 0.0, z),
+///     radius: 0.1,
+///     contour: None,
+///     side: None,
+/// };
 /// let trunk = JointAxis { points: vec![point(0.0, 0.0), point(0.0, 1.0), point(0.0, 2.0)], ..Default::default() };
 /// let branch = JointAxis {
 ///     points: vec![point(0.0, 1.0), point(1.0, 1.0)],

@@ -15,4 +15,6 @@ pub struct CylinderPoint {
     pub radius: f64,
     /// Closed curve in the plane z = 0; a circle with radius 1 if there is none.
     pub contour: Option<Arc<Curve>>,
+    /// Direction of the contour's x. Between points that have one, the surface twists by at most half a turn.
+    pub side: Option<DVec3>,
 }

@@ -17,8 +17,8 @@ const STRETCH: usize = 256;
 /// Adds a generalised cylinder: one closed surface around the smooth axis through `points`.
 ///
 /// Contours blend between the control points, and the radius changes smoothly and without overshoot. The contour's x
-/// points to `side` at the start, and the frames do not rotate about the axis. Ends are flat, or tips where the radius
-/// is 0. `sides` is the minimum number of faces around. Texture coordinates are in metres: u around, to both sides of
+/// points to `side` at the start, and the frames do not rotate about the axis, except between points that have sides of
+/// their own. Ends are flat, or tips where the radius is 0. `sides` is the minimum number of faces around. Texture coordinates are in metres: u around, to both sides of
 /// the middle of the contour, and v along the axis. Fewer than 2 distinct points add nothing.
 ///
 /// Fails, and adds nothing, if a number is not finite or if an end cannot be filled. The contours are as
@@ -29,7 +29,7 @@ const STRETCH: usize = 256;
 /// use burgeon_scene::Part;
 /// use glam::DVec3;
 ///
-/// let point = |z: f64, radius| CylinderPoint { position: DVec3::Z * z, radius, contour: None };
+/// let point = |z: f64, radius| CylinderPoint { position: DVec3::Z * z, radius, contour: None, side: None };
 /// let mut pod = Part::default();
 /// generalized_cylinder(&mut pod, vec![point(0.0, 0.0), point(1.0, 0.4), point(2.0, 0.1)], DVec3::X, 12)?;
 /// assert!(solid::check([&pod]).is_solid());

@@ -38,6 +38,31 @@ fn finite_vector(table: &Table) -> Option<DVec3> {
     vector.is_finite().then_some(vector)
 }
 
+impl Vector {
+    /// Replaces `value` by the script's value of the vector, in the memory of a vector that nothing else uses.
+    ///
+    /// ```
+    /// use burgeon_kit::{Parameter, Value, Vector};
+    ///
+    /// let mut value = Vector::from([1.0, 2.0, 3.0]).into_value();
+    /// Vector::from([4.0, 5.0, 6.0]).store_in(&mut value);
+    /// assert_eq!(value, Vector::from([4.0, 5.0, 6.0]).into_value());
+    /// ```
+    pub fn store_in(self, value: &mut Value) {
+        let class = &NAMES.class;
+        if let Value::Table(table) = value
+            && let Some(Table { class: Some(known), entries }) = Arc::get_mut(table)
+            && Arc::ptr_eq(known, class)
+            && let [(_, Value::Number(x)), (_, Value::Number(y)), (_, Value::Number(z))] =
+                entries.as_mut_slice()
+        {
+            (*x, *y, *z) = self.0.into();
+        } else {
+            *value = self.into_value();
+        }
+    }
+}
+
 impl From<[f64; 3]> for Vector {
     fn from(parts: [f64; 3]) -> Self {
         Self(DVec3::from_array(parts))
@@ -75,6 +100,15 @@ impl Parameter for AxisScale {
 impl Parameter for Vector {
     fn luau() -> String {
         "Vector".into()
+    }
+
+    fn read_value(value: &Value) -> Result<Self, Expectation> {
+        if let Value::Table(table) = value
+            && let Some(vector) = finite_vector(table)
+        {
+            return Ok(Self(vector));
+        }
+        Self::from_value(value.clone())
     }
 
     fn from_value(value: Value) -> Result<Self, Expectation> {
@@ -141,6 +175,11 @@ mod tests {
         let vector = Vector::from([1.0, -2.0, 0.5]);
         assert_eq!(Vector::from_value(vector.into_value()).ok(), Some(vector));
         assert!(Vector::from_value(Vector::from([1.0, f64::NAN, 0.0]).into_value()).is_err());
+        let mut value = vector.into_value();
+        let shared = value.clone();
+        Vector::from([4.0, 5.0, 6.0]).store_in(&mut value);
+        assert_eq!(Vector::read_value(&shared).ok(), Some(vector), "a shared value keeps its numbers");
+        assert_eq!(Vector::read_value(&value).ok(), Some(Vector::from([4.0, 5.0, 6.0])));
         let list =
             [3.0, 4.0].iter().zip(1..).map(|(part, place)| (TableKey::Index(place), Value::Number(*part)));
         let list = Value::Table(Arc::new(Table { class: None, entries: list.collect() }));

@@ -179,7 +179,10 @@ impl Walk<'_> {
                     "rule" | "decompose" => self.rule(method.args(), FunctionRole::Rule),
                     "interpret" => self.rule(method.args(), FunctionRole::Interpretation),
                     "at_start" | "before_step" | "after_step" | "at_end" => {
+                        // A hook runs in its step in any case, so its `stop` requires no passes.
+                        let stops = self.stops;
                         self.rule(method.args(), FunctionRole::Hook);
+                        self.stops = stops;
                     }
                     "axiom" => {
                         self.axiom = true;

@@ -33,7 +33,7 @@ pub struct Analysis {
     pub random: bool,
     /// Set if the script uses the global `step`.
     pub reads_step: bool,
-    /// Set if a function may end a derivation.
+    /// Set if a function that is not written as the argument of a hook may end a derivation.
     pub stops: bool,
     /// Lines on which pure functions begin.
     pub pure: Vec<usize>,

@@ -17,6 +17,8 @@ pub(super) struct BranchPlace {
     growing: Option<usize>,
     /// Set while the growing branch is a generalised cylinder.
     pub(super) in_cylinder: bool,
+    /// Set if the generalised cylinder twists with the turtle.
+    twists: bool,
 }
 
 impl BranchPlace {
@@ -30,7 +32,7 @@ impl BranchPlace {
 
     /// Completes the generalised cylinder.
     pub(super) fn end_cylinder(&mut self) {
-        (self.growing, self.in_cylinder) = (None, false);
+        (self.growing, self.in_cylinder, self.twists) = (None, false, false);
     }
 }
 
@@ -76,14 +78,21 @@ impl JoinedBranches {
     }
 
     /// Begins a branch at the turtle's position. It is joined to the branch there, if that has the same material.
-    pub(super) fn begin(&mut self, state: &mut TurtleState, maker: u32, in_cylinder: bool) {
+    fn begin(&mut self, state: &mut TurtleState, maker: u32, in_cylinder: bool) {
         let parent = state.joined.at.filter(|at| self.drawn[at.axis].0 == state.part);
         // The x direction of a cylinder's contour is to the right, the seam of a straight branch to the left.
         let side = if in_cylinder { -state.frame.left } else { state.frame.left };
         self.axes.push(JointAxis { points: Vec::new(), side, parent, smooth: in_cylinder });
         self.drawn.push((state.part, Vec::new()));
-        state.joined = BranchPlace { at: None, growing: Some(self.axes.len() - 1), in_cylinder };
+        let twists = in_cylinder && state.joined.twists;
+        state.joined = BranchPlace { at: None, growing: Some(self.axes.len() - 1), in_cylinder, twists };
         self.add_point(state, maker);
+    }
+
+    /// Begins a generalised cylinder at the turtle's position, which twists with the turtle if `twists` is set.
+    pub(super) fn begin_cylinder(&mut self, state: &mut TurtleState, maker: u32, twists: bool) {
+        state.joined.twists = twists;
+        self.begin(state, maker, true);
     }
 
     /// Begins branches in brackets: without a branch at the turtle's position, its branches join there.
@@ -106,8 +115,9 @@ impl JoinedBranches {
     pub(super) fn add_point(&mut self, state: &mut TurtleState, maker: u32) {
         let Some(axis) = state.joined.growing else { return };
         let contour = if state.joined.in_cylinder { state.contour.clone() } else { None };
-        let points = &mut self.axes[axis].points;
-        points.push(CylinderPoint { position: state.frame.position, radius: state.width / 2.0, contour });
+        let side = state.joined.twists.then_some(-state.frame.left);
+        let (position, radius) = (state.frame.position, state.width / 2.0);
+        self.axes[axis].points.push(CylinderPoint { position, radius, contour, side });
         self.drawn[axis].1.push(maker);
         self.added.push(axis);
         state.joined.at = Some(AxisPoint { axis, point: self.axes[axis].points.len() - 1 });

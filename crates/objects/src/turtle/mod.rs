@@ -12,6 +12,7 @@ mod rewind;
 #[cfg(test)]
 mod scale_tests;
 mod state;
+mod steps;
 #[cfg(test)]
 mod tests;
 mod tropism;

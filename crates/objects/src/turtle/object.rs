@@ -5,10 +5,10 @@ use std::sync::Arc;
 use glam::{DAffine3, DVec3};
 
 use super::angles::Angles;
-use super::cylinder::{OpenCylinder, already_open, not_open};
+use super::cylinder::{CylinderOptions, OpenCylinder, already_open, not_open};
 use super::joined::JoinedBranches;
 use super::options::TurtleOptions;
-use super::state::{Branch, TurtleState};
+use super::state::TurtleState;
 use crate::MaterialOptions;
 use crate::curves::curve::CurveObject;
 use crate::curves::surface::SurfaceObject;
@@ -17,11 +17,11 @@ use crate::mesh::{MeshFaces, MeshOptions, MeshPoints, draw_mesh};
 use crate::shapes::{ShapeObject, ShapeTarget, draw_shape};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::{Warning, WarningKind};
-use burgeon_geometry::{Frame, Strand, face, sphere};
+use burgeon_geometry::{Frame, face, sphere};
 use burgeon_kit::{
-    AxisScale, Color, Drawing, Locate, Model, ObjectPlace, Rescale, Rewind, Vector, Warn, methods, object,
+    AxisScale, Color, Drawing, Locate, Model, ObjectPlace, Rescale, Rewind, TableOf, Vector, Warn, methods,
+    object,
 };
-use burgeon_scene::Material;
 
 /// A turtle as in The Algorithmic Beauty of Plants, which draws round branches in three dimensions.
 ///
@@ -53,11 +53,11 @@ use burgeon_scene::Material;
     end = finish
 )]
 pub struct Turtle {
-    options: TurtleOptions,
+    pub(super) options: TurtleOptions,
     pub(super) state: TurtleState,
     pub(super) stack: FrameStack<TurtleState>,
     pub(super) drawing: Drawing,
-    angles: Angles,
+    pub(super) angles: Angles,
     pub(super) polygons: Vec<Vec<DVec3>>,
     /// Branches that the end draws as one surface, if `turtle.joints` is "smooth".
     pub(super) joined: Option<JoinedBranches>,
@@ -167,6 +167,11 @@ impl Turtle {
         Ok(())
     }
 
+    /// Multiplies all lengths and widths from now on by `factor`, until the end of the branch.
+    pub fn scale(&mut self, factor: f64) -> Result<()> {
+        self.state.rescale(factor).map_err(|error| error.about("turtle:scale"))
+    }
+
     /// Sets the colour of the surfaces.
     pub fn color(&mut self, color: Color) {
         self.paint_with(color);
@@ -206,6 +211,12 @@ impl Turtle {
         self.state.add_tropism(direction.0, elasticity, angle.unwrap_or(0.0))
     }
 
+    /// Adds a torque to the others: with each step drawn, the turtle rolls about its heading, and its up vector approaches
+    /// `direction` by `elasticity`, at most by 1 radian. Leaves then turn to one side of a branch.
+    pub fn add_torque(&mut self, direction: Vector, elasticity: f64) -> Result<()> {
+        self.state.add_torque(direction.0, elasticity)
+    }
+
     /// Sets the strength with which the heading bends with each step drawn.
     pub fn elasticity(&mut self, elasticity: f64) {
         self.state.elasticity = elasticity;
@@ -237,17 +248,19 @@ impl Turtle {
     /// Begins a generalised cylinder, a smooth surface with the turtle's width and contour: `forward` adds control points
     /// of its axis, `end_cylinder` or the end of the branch completes it.
     ///
-    /// It does not twist: turns about the heading have no effect on it. Moving without drawing adds no point.
-    pub fn begin_cylinder(&mut self) -> Result<()> {
+    /// It does not twist: turns about the heading have no effect on it, unless the options set `twist`. Moving without drawing
+    /// adds no point.
+    pub fn begin_cylinder(&mut self, options: Option<TableOf<CylinderOptions>>) -> Result<()> {
+        let CylinderOptions { twist } = options.unwrap_or_default().read()?;
         self.lift();
         if self.state.cylinder.is_some() || self.state.joined.in_cylinder {
             return Err(already_open());
         }
         if let Some(joined) = &mut self.joined {
-            joined.begin(&mut self.state, self.drawing.maker(), true);
+            joined.begin_cylinder(&mut self.state, self.drawing.maker(), twist);
             return Ok(());
         }
-        let cylinder = OpenCylinder::begin(&self.drawing, self.state.part, &self.state.frame);
+        let cylinder = OpenCylinder::begin(&self.drawing, self.state.part, &self.state.frame, twist);
         self.state.cylinder = Some(Box::new(cylinder));
         self.control();
         Ok(())
@@ -382,144 +395,5 @@ impl Turtle {
             joined,
             warnings: Vec::new(),
         })
-    }
-
-    /// Returns the scaled `length` (m), or that of a step.
-    #[inline]
-    fn length(&self, length: Option<f64>) -> f64 {
-        length.unwrap_or(self.options.step) * self.state.scale
-    }
-
-    /// Returns the sine and cosine of `angle` (degrees), or of the default angle.
-    #[inline]
-    fn angle(&mut self, angle: Option<f64>) -> (f64, f64) {
-        self.angles.sin_cos(angle.unwrap_or(self.options.angle))
-    }
-
-    fn paint_with(&mut self, color: Color) {
-        let material = self.drawing.material_of(self.state.part);
-        self.state.part = self.drawing.material(&Material { base_color: color.0, ..(*material).clone() });
-    }
-
-    /// Returns the part with the present material, visible from both sides.
-    fn two_sided(&mut self) -> usize {
-        let material = self.drawing.material_of(self.state.part);
-        let material = Material { double_sided: true, ..(*material).clone() };
-        self.drawing.material(&material)
-    }
-
-    /// Adds a control point at the turtle's position to the open cylinder.
-    fn control(&mut self) {
-        let TurtleState { frame, width, contour, cylinder, .. } = &mut self.state;
-        if let Some(cylinder) = cylinder {
-            cylinder.add(frame.position, *width, contour.as_ref());
-        }
-    }
-
-    /// Draws the open cylinder, if there is one.
-    fn close_cylinder(&mut self) -> Result<()> {
-        self.state.joined.end_cylinder();
-        let cylinder = self.state.cylinder.take();
-        cylinder.map_or(Ok(()), |cylinder| cylinder.draw(&mut self.drawing, self.options.sides))
-    }
-
-    fn draw(&mut self, length: f64) -> Result<()> {
-        if let Some(joined) = &mut self.joined
-            && self.polygons.is_empty()
-            && (self.state.width > 0.0 || self.state.joined.in_cylinder)
-        {
-            joined.prepare(&mut self.state, self.drawing.maker());
-            self.state.frame.forward(length);
-            joined.add_point(&mut self.state, self.drawing.maker());
-        } else if self.state.cylinder.is_some() && self.polygons.is_empty() {
-            self.state.frame.forward(length);
-            self.control();
-        } else if self.polygons.is_empty() && self.state.width > 0.0 {
-            let part = self.state.part;
-            if self.state.strand.as_ref().is_none_or(|branch| branch.part != part) {
-                self.lift();
-                let frame = &self.state.frame;
-                let sides = self.options.sides as usize;
-                let strand = Strand::begin(sides, frame.position, frame.left, self.state.width / 2.0)?;
-                self.state.strand = Some(Branch { part, strand, maker: self.drawing.maker() });
-            }
-            self.state.frame.forward(length);
-            let position = self.state.frame.position;
-            if let Some(Branch { part, strand, maker }) = &mut self.state.strand {
-                // These faces belong to the previous segment, which is drawn only now.
-                let radius = self.state.width / 2.0;
-                self.drawing.draw_for(*maker, *part, |part| strand.extend_to(part, position, radius))?;
-                *maker = self.drawing.maker();
-            }
-        } else {
-            self.leave();
-            self.state.frame.forward(length);
-        }
-        self.state.bend();
-        Ok(())
-    }
-
-    /// Ends the branch that is being drawn, because the turtle moves without drawing.
-    fn leave(&mut self) {
-        self.lift();
-        self.state.joined.leave();
-    }
-
-    /// Ends the branch that is being drawn.
-    fn lift(&mut self) {
-        if let Some(Branch { part, strand, maker }) = self.state.strand.take() {
-            self.drawing.draw_for(maker, part, |part| strand.end(part));
-        }
-    }
-}
-
-impl Turtle {
-    fn restart(&mut self) {
-        self.stack.clear();
-        self.drawing.clear();
-        self.state = TurtleState::begin(&self.options, &mut self.drawing);
-        self.polygons.clear();
-        self.joined.iter_mut().for_each(JoinedBranches::clear);
-        self.warnings.clear();
-    }
-
-    fn open_branch(&mut self) {
-        if let Some(joined) = &mut self.joined {
-            joined.open(&mut self.state, self.drawing.maker());
-        }
-        // The new branch starts without a strand; the strand in the copy continues after the branch.
-        let cylinder = self.state.cylinder.take();
-        self.stack.push(TurtleState { cylinder, ..self.state.clone() });
-        self.state.strand = None;
-        self.state.joined.end_cylinder();
-    }
-
-    fn close_branch(&mut self) -> Result<()> {
-        self.lift();
-        self.close_cylinder()?;
-        // Uses `clone_from` because moving the state out of the stack would copy it twice.
-        let Self { stack, state, .. } = self;
-        stack.pop_with(|outer| {
-            let cylinder = outer.cylinder.take();
-            state.clone_from(outer);
-            state.cylinder = cylinder;
-        });
-        Ok(())
-    }
-
-    fn finish(&mut self) -> Result<()> {
-        self.lift();
-        self.close_cylinder()?;
-        if let Some(joined) = &mut self.joined {
-            self.warnings.extend(joined.draw(&mut self.drawing, self.options.sides)?);
-        }
-        if let Some(open) = self.polygons.first() {
-            return Err(Error::script(format!(
-                "a polygon of {} corners is still open at the end",
-                open.len()
-            ))
-            .help("end it with EndPolygon()"));
-        }
-        Ok(())
     }
 }

@@ -10,7 +10,7 @@ use super::Turtle;
 use super::cylinder::OpenCylinder;
 use super::joined::BranchPlace;
 use super::options::TurtleOptions;
-use super::tropism::Tropism;
+use super::tropism::{TorqueSum, Tropism};
 use crate::surface::plain_material;
 use burgeon_base::error::{Error, Result};
 
@@ -28,6 +28,7 @@ pub(super) struct TurtleState {
     pub(super) elasticity: f64,
     /// Tropisms in addition to that one.
     pub(super) more_tropisms: Vec<Tropism>,
+    pub(super) torques: TorqueSum,
     /// Branch that is being drawn.
     pub(super) strand: Option<Branch>,
     /// Contour of generalised cylinders; a circle if there is none.
@@ -60,12 +61,14 @@ impl TurtleState {
             tropism: options.tropism.0.normalize_or_zero(),
             elasticity: options.elasticity,
             more_tropisms: Vec::new(),
+            torques: TorqueSum::default(),
             strand: None,
             contour: None,
             cylinder: None,
             joined: BranchPlace::default(),
         }
     }
+
     /// Multiplies the lengths and widths from now on by `factor`.
     pub(super) fn rescale(&mut self, factor: f64) -> Result<()> {
         let scale = self.scale * factor;

@@ -3,7 +3,9 @@
 use std::sync::Arc;
 
 use burgeon_geometry::solid::{area, check, volume};
-use burgeon_kit::{AxisScale, Color, Draw as _, Object, Rewind as _, Vector};
+use burgeon_kit::{
+    AxisScale, Color, Draw as _, Object, Rewind as _, Table, TableKey, TableOf, Value, Vector,
+};
 use burgeon_scene::Part;
 use glam::DVec3;
 
@@ -29,7 +31,7 @@ fn square(closed: bool) -> Arc<CurveObject> {
 fn steps_within_a_cylinder_are_one_closed_surface() {
     let mut turtle = turtle();
     turtle.width(0.4).expect("a width");
-    turtle.begin_cylinder().expect("a beginning");
+    turtle.begin_cylinder(None).expect("a beginning");
     for _ in 0..6 {
         turtle.forward(Some(0.5)).expect("a step");
         turtle.turn(Some(20.0));
@@ -50,13 +52,13 @@ fn steps_within_a_cylinder_are_one_closed_surface() {
 #[test]
 fn a_branch_has_a_cylinder_of_its_own_and_its_end_completes_it() {
     let mut turtle = turtle();
-    turtle.begin_cylinder().expect("a trunk");
+    turtle.begin_cylinder(None).expect("a trunk");
     turtle.forward(Some(1.0)).expect("a step");
     turtle.push();
     turtle.turn(Some(90.0));
-    turtle.begin_cylinder().expect("a branch");
+    turtle.begin_cylinder(None).expect("a branch");
     turtle.forward(Some(1.0)).expect("a step");
-    let error = turtle.begin_cylinder().expect_err("one is open");
+    let error = turtle.begin_cylinder(None).expect_err("one is open");
     assert!(error.to_string().contains("a cylinder is already open"));
     turtle.pop().expect("the end of the branch");
     let one = volume(drawn(&turtle));
@@ -72,7 +74,7 @@ fn a_contour_is_scaled_by_half_of_the_width_and_oriented_like_a_placed_model() {
     let mut turtle = turtle();
     turtle.contour(Some(square(true))).expect("a contour");
     turtle.width(0.5).expect("a width");
-    turtle.begin_cylinder().expect("a beginning");
+    turtle.begin_cylinder(None).expect("a beginning");
     turtle.forward(Some(2.0)).expect("a step");
     turtle.end_cylinder().expect("an end");
     assert!((volume(drawn(&turtle)) - 0.5).abs() < 1e-6);
@@ -148,7 +150,7 @@ fn draw_tree(turtle: &mut Turtle) {
     turtle.push();
     turtle.turn(Some(-70.0));
     turtle.width(0.06).expect("a width");
-    turtle.begin_cylinder().expect("a beginning");
+    turtle.begin_cylinder(None).expect("a beginning");
     step(turtle);
     turtle.pitch(Some(40.0));
     step(turtle);
@@ -204,9 +206,9 @@ fn branches_at_the_start_join_without_a_trunk_and_a_cylinder_must_end_before_ano
     for angle in [90.0, -30.0] {
         turtle.push();
         turtle.turn(Some(angle));
-        turtle.begin_cylinder().expect("a beginning");
+        turtle.begin_cylinder(None).expect("a beginning");
         turtle.forward(Some(1.0)).expect("a step");
-        assert!(turtle.begin_cylinder().is_err(), "one is open");
+        assert!(turtle.begin_cylinder(None).is_err(), "one is open");
         turtle.end_cylinder().expect("an end");
         assert!(turtle.end_cylinder().is_err(), "none is open");
         turtle.forward(Some(1.0)).expect("a step");
@@ -250,5 +252,81 @@ fn a_line_ends_at_its_position_in_any_direction_and_is_a_solid() {
         turtle.end().expect("the end of the pass");
         assert!(check(drawn(&turtle)).is_solid());
         assert!(turtle.distance(Vector(begin.midpoint(end))) < 0.5);
+    }
+}
+
+#[test]
+fn a_torque_rolls_after_each_step_until_the_end_of_its_branch() {
+    let mut turtle = turtle();
+    turtle.face(Vector(DVec3::X)).expect("a direction");
+    turtle.level();
+    turtle.roll(Some(90.0));
+    assert!(turtle.up().z.abs() < 1e-12);
+    turtle.push();
+    turtle.add_torque(Vector(DVec3::Z * 7.0), 0.2).expect("a torque");
+    turtle.forward(Some(1.0)).expect("a step");
+    assert!((turtle.up().z - 0.2_f64.sin()).abs() < 1e-12, "{}", turtle.up());
+    turtle.advance(Some(1.0));
+    turtle.forward(Some(1.0)).expect("a step");
+    let second = 0.2 + 0.2 * 0.2_f64.cos();
+    assert!((turtle.up().z - second.sin()).abs() < 1e-12, "moving without drawing has no effect");
+    assert_eq!(turtle.heading(), DVec3::X);
+    turtle.pop().expect("the end of a branch");
+    turtle.forward(Some(1.0)).expect("a step");
+    assert!(turtle.up().z.abs() < 1e-12);
+    for _ in 0..100 {
+        turtle.add_torque(Vector(DVec3::Z), 0.1).expect("at most a hundred");
+    }
+    let error = turtle.add_torque(Vector(DVec3::Z), 0.1).expect_err("too many");
+    assert_eq!(error.message(), "a turtle has at most 100 torques");
+}
+
+#[test]
+fn a_scale_holds_for_lengths_and_widths_until_the_end_of_its_branch() {
+    let mut turtle = turtle();
+    turtle.push();
+    turtle.scale(0.5).expect("a scale");
+    turtle.scale(0.5).expect("a scale");
+    turtle.forward(Some(2.0)).expect("a step");
+    assert_eq!(turtle.position(), DVec3::Z * 0.5);
+    turtle.pop().expect("the end of a branch");
+    let one = volume(drawn(&turtle));
+    turtle.forward(Some(2.0)).expect("a step");
+    turtle.end().expect("the end of the pass");
+    assert!((volume(drawn(&turtle)) - 65.0 * one).abs() < 1e-6, "{one} {}", volume(drawn(&turtle)));
+    for factor in [0.0, -1.0, f64::INFINITY] {
+        let error = turtle.scale(factor).expect_err("not a scale").to_string();
+        assert!(error.contains("turtle:scale") && error.contains("above 0"), "{error}");
+    }
+}
+
+#[test]
+fn a_cylinder_twists_with_the_turtle_if_it_is_asked_to() {
+    let corner = |twist: bool, joints: &str| {
+        let options = TurtleOptions { width: 2.0, joints: joints.into(), ..TurtleOptions::default() };
+        let mut turtle = Turtle::new(options).expect("a turtle");
+        turtle.contour(Some(square(true))).expect("a contour");
+        let entries = vec![(TableKey::Name("twist".into()), Value::Boolean(twist))];
+        let options = TableOf::from(Arc::new(Table { class: None, entries }));
+        turtle.begin_cylinder(Some(options)).expect("a beginning");
+        for _ in 0..3 {
+            turtle.roll(Some(50.0));
+            turtle.forward(Some(3.0)).expect("a step");
+        }
+        turtle.end_cylinder().expect("an end");
+        turtle.end().expect("the end of the pass");
+        let parts = drawn(&turtle);
+        assert!(check(parts.clone()).is_solid() && (volume(parts.clone()) - 36.0).abs() < 1.0);
+        let top = parts[0].positions.iter().filter(|at| (at.z - 9.0).abs() < 1e-5);
+        let far = top.filter(|at| at.truncate().length() > 1.41);
+        // Angle (degrees) of a corner, modulo a quarter turn.
+        far.map(|at| (f64::from(at.y).atan2(f64::from(at.x)).to_degrees() - 45.0).rem_euclid(90.0)).next()
+    };
+    for joints in ["separate", "smooth"] {
+        let still = corner(false, joints).expect("a corner");
+        assert!(still.min(90.0 - still) < 1e-3, "{still} with {joints}");
+        // Rolled by 150 degrees, which look like 60 or 30.
+        let turned = corner(true, joints).expect("a corner");
+        assert!((turned - 60.0).abs() < 1e-3 || (turned - 30.0).abs() < 1e-3, "{turned} with {joints}");
     }
 }

@@ -1,4 +1,4 @@
-//! Tropisms: directions towards which the heading bends with each step.
+//! Tropisms and torques: directions towards which the heading bends, and the up vector rolls, with each step.
 
 use burgeon_geometry::Frame;
 use glam::{DQuat, DVec3};
@@ -9,7 +9,10 @@ use burgeon_base::error::{Error, Limit, Result};
 /// Maximum number of tropisms of a turtle.
 const MOST_TROPISMS: usize = 100;
 
-/// Maximum angle of a bend (radians), as in cpfg.
+/// Maximum number of torques of a turtle.
+const MOST_TORQUES: usize = 100;
+
+/// Maximum angle of a bend or a roll (radians), as in cpfg.
 const LARGEST: f64 = 1.0;
 
 /// Tropism that bends the heading until it makes an angle with a direction.
@@ -36,6 +39,26 @@ impl Tropism {
     }
 }
 
+/// Sum of the torques of a turtle. The up vector rolls towards its direction.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct TorqueSum {
+    /// Sum of the directions, each of the length of its elasticity.
+    pull: DVec3,
+    count: usize,
+}
+
+impl TorqueSum {
+    /// Rolls `frame` by min(|U x D|, 1) radians about its heading, where U is the up vector, and D the part of the sum that is
+    /// perpendicular to the heading. An up vector that points away from D keeps its direction.
+    fn roll(&self, frame: &mut Frame) {
+        // The up vector, the left and D are in one plane, so |U x D| is the part of D along the left.
+        let angle = self.pull.dot(frame.left);
+        if angle.abs() > 1e-9 {
+            frame.roll(angle.clamp(-LARGEST, LARGEST));
+        }
+    }
+}
+
 impl TurtleState {
     /// Adds a tropism to the others, whose preferred angle is `angle` (degrees).
     pub(super) fn add_tropism(&mut self, direction: DVec3, elasticity: f64, angle: f64) -> Result<()> {
@@ -48,13 +71,27 @@ impl TurtleState {
         Ok(())
     }
 
-    /// Bends the heading after a step.
+    /// Adds a torque to the others.
+    pub(super) fn add_torque(&mut self, direction: DVec3, elasticity: f64) -> Result<()> {
+        if self.torques.count == MOST_TORQUES {
+            return Err(Error::limit(Limit::Size, format!("a turtle has at most {MOST_TORQUES} torques"))
+                .help("add them once, at the beginning of a branch or of the chain"));
+        }
+        self.torques.pull += direction.normalize_or_zero() * elasticity;
+        self.torques.count += 1;
+        Ok(())
+    }
+
+    /// Bends the heading after a step, then rolls by the torques.
     pub(super) fn bend(&mut self) {
         if !self.more_tropisms.is_empty() {
             let main = Tropism { direction: self.tropism, elasticity: self.elasticity, angle: 0.0 };
             bend_together(&mut self.frame, self.more_tropisms.iter().copied().chain([main]));
         } else if self.elasticity != 0.0 {
             bend_towards(&mut self.frame, self.tropism, self.elasticity);
+        }
+        if self.torques.count > 0 {
+            self.torques.roll(&mut self.frame);
         }
     }
 }
@@ -104,6 +141,46 @@ mod tests {
                 assert!((found - angle).abs() < 1e-3, "{found} instead of {angle} from {heading}");
             }
         }
+    }
+
+    fn torque(pull: DVec3) -> TorqueSum {
+        TorqueSum { pull, count: 1 }
+    }
+
+    #[test]
+    fn a_torque_rolls_by_its_strength_and_the_sine_of_the_angle_to_its_direction() {
+        // The heading is x, and the up vector z is rolled away from the direction by the angle.
+        for (angle, strength, expected) in
+            [(90.0_f64, 0.2, 0.2), (30.0, 0.4, 0.2), (150.0, 0.4, 0.2), (-90.0, 0.3, -0.3), (60.0, 50.0, 1.0)]
+        {
+            let mut frame = frame(DVec3::X);
+            frame.level();
+            assert!(frame.up.abs_diff_eq(DVec3::Z, 1e-12));
+            let direction = DVec3::new(0.0, angle.to_radians().sin(), angle.to_radians().cos());
+            torque(direction * strength).roll(&mut frame);
+            let rolled = f64::atan2(frame.up.y, frame.up.z);
+            assert!((rolled - expected).abs() < 1e-12, "{rolled} instead of {expected} at {angle}");
+            assert!(frame.heading == DVec3::X && frame.left.cross(frame.up).abs_diff_eq(DVec3::X, 1e-12));
+        }
+    }
+
+    #[test]
+    fn the_up_vector_converges_to_the_projection_of_the_direction_of_a_torque() {
+        let heading = DVec3::new(0.6, 0.0, 0.8);
+        let mut frame = frame(heading);
+        frame.roll(2.0);
+        (0..400).for_each(|_| torque(DVec3::Z * 0.1).roll(&mut frame));
+        let projection = (DVec3::Z - heading * heading.z).normalize();
+        assert!(frame.up.abs_diff_eq(projection, 1e-9), "{} instead of {projection}", frame.up);
+    }
+
+    #[test]
+    fn a_torque_along_the_heading_or_against_the_up_vector_has_no_effect() {
+        let mut frame = frame(DVec3::X);
+        let before = frame;
+        torque(DVec3::X).roll(&mut frame);
+        torque(-frame.up).roll(&mut frame);
+        assert_eq!(frame, before);
     }
 
     #[test]

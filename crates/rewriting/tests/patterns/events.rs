@@ -8,7 +8,7 @@ use super::functions::Prepared;
 use super::plain::{self, Part};
 use super::plain_events::{plain_event, rate};
 use super::systems::{Dice, RandomSystem};
-use crate::rewriting::{EventSeries, ModuleKey, Propensity, Rule, Stepper};
+use crate::rewriting::{ChainsBetween, EventSeries, EventsNext, ModuleKey, Propensity, Rule, Stepper};
 
 /// Performs `steps` events in the crate, `together` in each request. Returns the chain and the time after each request.
 fn crate_events(
@@ -30,6 +30,12 @@ fn crate_events(
     let mut found = Vec::new();
     let mut done = 0;
     while done < steps {
+        // The chains between events are those of requests for single events.
+        let mut seen = Vec::new();
+        let mut between = |chains: &ChainsBetween, number: usize| {
+            seen.push((number - 1, prepared.read(chains.whole()), chains.time()));
+            Ok([EventsNext::Continue, EventsNext::Recompute, EventsNext::End][number % 3])
+        };
         let mut series = EventSeries {
             first: done + 1,
             last: steps.min(done + together),
@@ -37,6 +43,7 @@ fn crate_events(
             is_changed: false,
             ends_at: &[],
             watch: &mut |_, _| true,
+            between: Some(&mut between),
         };
         let before = Arc::clone(&chain);
         let outcome = stepper
@@ -49,6 +56,7 @@ fn crate_events(
         }
         chain = Arc::clone(&outcome.chain);
         done += outcome.steps;
+        found.append(&mut seen);
         found.push((done, prepared.read(&chain), stepper.event_times()[0]));
         if outcome.settled {
             break;

@@ -52,6 +52,7 @@ pub(in crate::machine) fn install_methods(machine: &Machine, kind: &Arc<Kind>) -
                 method.call.changes(),
                 &*kind.name,
                 is_environment,
+                method.arguments.len(),
             ))?,
         };
         let function = match kind.deprecation(&method.name) {

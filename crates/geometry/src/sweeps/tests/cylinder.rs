@@ -13,7 +13,7 @@ use crate::sweeps::cylinder::generalized_cylinder;
 use burgeon_scene::Part;
 
 fn point(position: DVec3, radius: f64) -> CylinderPoint {
-    CylinderPoint { position, radius, contour: None }
+    CylinderPoint { position, radius, contour: None, side: None }
 }
 
 fn cylinder(points: &[CylinderPoint], sides: usize) -> Part {
@@ -115,6 +115,35 @@ fn contours_blend_along_the_axis() {
 }
 
 #[test]
+fn a_surface_twists_to_the_sides_of_its_points_and_is_smooth_between_them() {
+    let turned = |degrees: f64| DVec3::new(degrees.to_radians().cos(), degrees.to_radians().sin(), 0.0);
+    // From the second to the third point, the shorter way crosses 180 degrees.
+    let points = [(0.0, 0.0), (1.0, 60.0), (3.0, 200.0)].map(|(z, degrees)| CylinderPoint {
+        contour: Some(square(1.0)),
+        side: Some(turned(degrees)),
+        ..point(DVec3::Z * z, 0.5)
+    });
+    let part = cylinder(&points, 4);
+    assert!(check([&part]).is_solid());
+    assert!((volume([&part]) - 3.0).abs() < 0.05, "{}", volume([&part]));
+    // Angles (degrees) of a corner at each height, modulo a quarter turn.
+    let corner = |z: f64| {
+        let is_corner = |at: &&Vec3| (f64::from(at.z) - z).abs() < 1e-6 && at.truncate().length() > 0.707;
+        let at = part.positions.iter().filter(is_corner);
+        let angles = at.map(|at| f64::from(at.y).atan2(f64::from(at.x)).to_degrees() - 45.0);
+        angles.map(|angle| angle.rem_euclid(90.0)).collect::<Vec<_>>()
+    };
+    for (z, expected) in [(0.0, 0.0), (1.0, 60.0), (3.0, 20.0)] {
+        let found = corner(z);
+        let near = |angle: &f64| (angle - expected).abs().min(90.0 - (angle - expected).abs()) < 1e-3;
+        assert!(found.len() >= 4 && found.iter().all(near), "{found:?} at {z}");
+    }
+    let untwisted = points.clone().map(|point| CylinderPoint { side: Some(DVec3::X), ..point });
+    let straight = points.map(|point| CylinderPoint { side: None, ..point });
+    assert_eq!(cylinder(&untwisted, 4), cylinder(&straight, 4));
+}
+
+#[test]
 fn points_at_one_position_count_once_and_one_point_draws_nothing() {
     let part = cylinder(&[point(DVec3::ZERO, 1.0)], 8);
     assert_eq!(part, Part::default());
@@ -152,7 +181,7 @@ proptest! {
     #[test]
     fn every_cylinder_is_closed_and_oriented(
         steps in prop::collection::vec(
-            (-1.0f64..1.0, -1.0f64..1.0, -1.0f64..1.0, prop_oneof![0.0f64..0.4, Just(0.0)], 0usize..3),
+            (-1.0f64..1.0, -1.0f64..1.0, -1.0f64..1.0, prop_oneof![0.0f64..0.4, Just(0.0)], 0usize..3, 0.0f64..12.0),
             2..10,
         ),
         sides in 3usize..12,
@@ -166,9 +195,10 @@ proptest! {
         let mut position = DVec3::splat(far);
         let points: Vec<CylinderPoint> = steps
             .into_iter()
-            .map(|(x, y, z, radius, number)| {
+            .map(|(x, y, z, radius, number, angle)| {
                 position += DVec3::new(x, y, z);
-                CylinderPoint { position, radius, contour: contours[number].clone() }
+                let side = (angle < TAU).then(|| DVec3::new(angle.cos(), angle.sin(), y));
+                CylinderPoint { contour: contours[number].clone(), side, ..point(position, radius) }
             })
             .collect();
         let found = check([&cylinder(&points, sides)]);
