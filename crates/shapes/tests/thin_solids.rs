@@ -61,7 +61,7 @@ fn unions_of_forty_thin_slices_are_closed_and_can_be_drawn_and_most_of_them_succ
                 failures += 1;
                 continue;
             };
-            let union = union.unwrap();
+            let union = union.solid.unwrap();
             assert!(union.is_closed());
             let (before, after) = (whole.volume().max(part.volume()), union.volume());
             assert!(after > before * (1.0 - 1e-4), "{after} of {before}, seed {seed}, slice {number}");
@@ -86,7 +86,7 @@ fn fifty_slices_on_each_other_are_one_block() {
         };
         let mut whole = slice(0);
         for number in 1..50 {
-            whole = whole.combine(&slice(number), SolidOperation::Union).unwrap().unwrap();
+            whole = whole.combine(&slice(number), SolidOperation::Union).unwrap().solid.unwrap();
         }
         assert!(whole.is_closed() && (whole.volume() - 0.05).abs() < 1e-7, "{gap}: {}", whole.volume());
     }

@@ -139,16 +139,17 @@ mod tests {
         let pair = cube(0.0, 0.0)
             .combine(&cube(1.0, 1.0), SolidOperation::Union)
             .expect("a union")
+            .solid
             .expect("a solid");
         let hole = Shape::cuboid(DVec3::new(1.0, 1.0, 0.5)).translate(DVec3::new(0.5, 0.5, -0.25));
-        let rest = pair.combine(&hole, SolidOperation::Difference).expect("a rest").expect("a solid");
+        let rest = pair.combine(&hole, SolidOperation::Difference).expect("a rest").solid.expect("a solid");
         assert!(rest.is_closed() && (rest.volume() - (2.0 - 2.0 * 0.0625)).abs() < 1e-9, "{}", rest.volume());
     }
 
     #[test]
     fn solids_that_are_joined_at_both_ends_of_an_edge_can_be_cut() {
         let union = |one: &Shape, two: &Shape| {
-            one.combine(two, SolidOperation::Union).expect("a union").expect("a solid")
+            one.combine(two, SolidOperation::Union).expect("a union").solid.expect("a solid")
         };
         let pair = union(&cube(0.0, 0.0), &cube(1.0, 1.0));
         // Plates above and below join the cubes at both ends of the edge that they share.
@@ -156,7 +157,7 @@ mod tests {
         let joined = union(&union(&pair, &plate(1.0)), &plate(-0.5));
         assert!((joined.volume() - 6.0).abs() < 1e-9, "{}", joined.volume());
         let hole = Shape::cuboid(DVec3::new(1.0, 1.0, 0.5)).translate(DVec3::new(0.5, 0.5, 0.25));
-        let rest = joined.combine(&hole, SolidOperation::Difference).expect("a rest").expect("a solid");
+        let rest = joined.combine(&hole, SolidOperation::Difference).expect("a rest").solid.expect("a solid");
         assert!(rest.is_closed() && (rest.volume() - (6.0 - 2.0 * 0.125)).abs() < 1e-6, "{}", rest.volume());
     }
 }

@@ -28,6 +28,22 @@ pub enum SolidOperation {
     Intersection,
 }
 
+/// Result of a set operation.
+#[derive(Debug, Clone)]
+pub struct CombinedSolid {
+    /// Solid; `None` if nothing remains.
+    pub solid: Option<Shape>,
+    /// Distance (m) by which the second solid was moved; 0 unless the operation fails numerically without it.
+    pub shift: f64,
+}
+
+impl CombinedSolid {
+    /// Creates the result of an operation on solids that were not moved.
+    fn exact(solid: Option<Shape>) -> Self {
+        Self { solid, shift: 0.0 }
+    }
+}
+
 /// Maximum number of triangles of both solids together.
 const MOST_TRIANGLES: usize = 2_000_000;
 /// Number of triangles of both solids from which an operation can take long, so that a thread of its own computes it.
@@ -40,7 +56,7 @@ const NEAR: f64 = 1e-7;
 const STRETCH: usize = 4096;
 
 impl Shape {
-    /// Returns the union, difference or intersection of two solids; `None` if nothing remains.
+    /// Returns the union, difference or intersection of two solids.
     ///
     /// Faces keep their tags, and get "bool.a" or "bool.b" by the solid that they come from. Coplanar parts of a face
     /// are joined, unless a face would be too narrow. If the operation fails numerically, it is tried with points joined that
@@ -54,18 +70,13 @@ impl Shape {
     /// use glam::DVec3;
     ///
     /// let block = Shape::cuboid(DVec3::splat(2.0));
-    /// let cut = block.combine(&block.translate(DVec3::ONE), SolidOperation::Difference)?.expect("7 of 8 parts");
-    /// assert!(cut.is_closed() && (cut.volume() - 7.0).abs() < 1e-9);
-    /// assert_eq!(cut.body.faces(), 9);
-    /// # Ok::<(), burgeon_base::Error>(())
+    /// let cut = block.combine(&block.translate(DVec3::ONE), SolidOperation::Difference)?;
+    /// let solid = cut.solid.expect("7 of 8 parts");
+    /// assert!(solid.is_closed() && (solid.volume() - 7.0).abs() < 1e-9 && cut.shift == 0.0);
+    /// assert_eq!(solid.body.faces(), 9);
+    /// # Ok::<(), burgeon_base::error::Error>(())
     /// ```
-    pub fn combine(&self, other: &Self, operation: SolidOperation) -> Result<Option<Self>> {
-        self.combine_with_shift(other, operation).map(|(solid, _)| solid)
-    }
-
-    /// Returns the solid of [`combine`](Self::combine), and the distance (m) by which the second solid was moved; 0 unless the
-    /// operation fails numerically without it.
-    pub fn combine_with_shift(&self, other: &Self, operation: SolidOperation) -> Result<(Option<Self>, f64)> {
+    pub fn combine(&self, other: &Self, operation: SolidOperation) -> Result<CombinedSolid> {
         for shape in [self, other] {
             if !shape.is_closed() {
                 let open = shape.mesh().open_edges().count();
@@ -81,18 +92,20 @@ impl Shape {
                 SolidOperation::Difference => Some(one),
                 SolidOperation::Intersection => None,
             };
-            return Ok((solid, 0.0));
+            return Ok(CombinedSolid::exact(solid));
         }
         let (mut cause, mut unsound) = (String::new(), None);
         for attempt in SolidAttempt::ALL {
             let Some([one, two]) = attempt.solids(self, other) else { continue };
             let shift = attempt.shift(other).length();
             match one.combine_once(&two, operation)? {
-                Ok(Some(solid)) if !solid.is_sound()? => unsound = unsound.or(Some((Some(solid), shift))),
-                Ok(solid) => return Ok((solid, shift)),
+                Ok(Some(solid)) if !solid.is_sound()? => {
+                    unsound = unsound.or(Some(CombinedSolid { solid: Some(solid), shift }));
+                }
+                Ok(solid) => return Ok(CombinedSolid { solid, shift }),
                 // The crate refuses empty results, too.
                 Err(_) if attempt == SolidAttempt::Exact && self.leaves_nothing(other, operation)? => {
-                    return Ok((None, 0.0));
+                    return Ok(CombinedSolid::exact(None));
                 }
                 Err(found) if cause.is_empty() => cause = found,
                 Err(_) => {}
@@ -199,8 +212,8 @@ impl Shape {
             SolidOperation::Union => Ok(false),
             SolidOperation::Intersection => Ok(!self.overlaps(other)?),
             SolidOperation::Difference => {
-                let both =
-                    self.combine(other, SolidOperation::Intersection)?.map_or(0.0, |both| both.volume());
+                let both = self.combine(other, SolidOperation::Intersection)?.solid;
+                let both = both.map_or(0.0, |both| both.volume());
                 Ok(both >= self.volume() * (1.0 - 1e-9))
             }
         }

@@ -22,6 +22,8 @@ pub struct BeveledSolid {
     pub failed: usize,
     /// Number of edges with a face that is too narrow for the bevel, which meets another edge or its bevel.
     pub narrow: usize,
+    /// Greatest distance (m) by which what is cut off was moved, because the set operation fails numerically without it.
+    pub shift: f64,
 }
 
 impl Shape {
@@ -60,33 +62,33 @@ impl Shape {
             cut.push([edge.ends[0].min(edge.ends[1]), edge.ends[0].max(edge.ends[1])]);
         }
         let narrow = narrow_edges(&mesh, &normals, &cut, distance)?;
-        let mut solid = self.clone();
+        let (mut solid, mut shift) = (self.clone(), 0.0_f64);
         for group in separate_groups(&wedges)? {
             Stop::check_current()?;
             if let [_, _, ..] = group.as_slice()
                 && let Some(all) = Self::join(&group)?
-                && let Some(rest) = without(&solid, &all)?
+                && let Some((rest, moved)) = without(&solid, &all)?
             {
-                solid = rest;
+                (solid, shift) = (rest, shift.max(moved));
                 continue;
             }
             for wedge in group {
                 match without(&solid, wedge)? {
-                    Some(rest) => solid = rest,
+                    Some((rest, moved)) => (solid, shift) = (rest, shift.max(moved)),
                     None => failed += 1,
                 }
             }
         }
         let style = |style: &SharedStyle| FaceStyle::without_tags(style, "bool");
-        Ok(BeveledSolid { solid: solid.with_styles(style).recompose()?, failed, narrow })
+        Ok(BeveledSolid { solid: solid.with_styles(style).recompose()?, failed, narrow, shift })
     }
 }
 
-/// Returns the rest of a solid; `None` if nothing remains or the operation fails.
-fn without(solid: &Shape, wedge: &Shape) -> Result<Option<Shape>> {
+/// Returns the rest of a solid, and the distance (m) by which the wedge was moved; `None` if nothing remains or the operation fails.
+fn without(solid: &Shape, wedge: &Shape) -> Result<Option<(Shape, f64)>> {
     match solid.combine(wedge, SolidOperation::Difference) {
         Err(error) if *error.kind() == ErrorKind::Geometry => Ok(None),
-        other => other,
+        other => other.map(|rest| rest.solid.map(|solid| (solid, rest.shift))),
     }
 }
 
