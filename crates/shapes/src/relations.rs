@@ -6,12 +6,10 @@ use burgeon_geometry::ClosedMesh;
 use burgeon_scene::nearest_on_triangle;
 use glam::DVec3;
 
-use crate::{CombinedSolid, Shape, ShapeBody, SolidOperation};
+use crate::{Shape, ShapeBody, SolidOperation};
 
 /// Distance (m) within which shapes touch, and above which they overlap.
 const CONTACT: f64 = 1e-5;
-/// Volume (m³) below which nothing is outside of a solid.
-const NOTHING: f64 = 1e-9;
 /// Number of pairs of triangles between two checks for cancellation.
 const STRETCH: usize = 1 << 16;
 
@@ -31,10 +29,8 @@ impl Shape {
     /// Returns true if a whole solid is inside this one, and the distance (m) by which this one was moved, because the set
     /// operation fails numerically without it. Fails if a shape is open.
     pub fn contains_solid(&self, other: &Self) -> Result<(bool, f64)> {
-        let CombinedSolid { solid, shift } = other.combine(self, SolidOperation::Difference)?;
-        // A moved solid leaves a layer of this thickness.
-        let layer = shift * self.area().min(other.area());
-        Ok((solid.is_none_or(|rest| rest.volume() < NOTHING + layer), shift))
+        let rest = other.combine(self, SolidOperation::Difference)?;
+        Ok((rest.leaves_less_than(self.area().min(other.area())), rest.shift))
     }
 
     /// Returns the distance (m) from a position to the nearest point of the faces, or of the edge; 0 inside a solid.

@@ -139,7 +139,8 @@ impl Segment {
             return 0.0;
         };
         let (sin, cos) = self.toward.sin_cos();
-        let axis = start.heading.cross(start.left * cos - start.up * sin) * (self.length / self.bend).signum();
+        let axis =
+            start.heading.cross(start.left * cos - start.up * sin) * (self.length / self.bend).signum();
         let reach = |station: &Station| {
             let mut frame = station.frame;
             let inward = axis.cross(frame.heading);
@@ -247,7 +248,7 @@ mod tests {
         near(reach(Segment { toward: FRAC_PI_2, ..arc }), 2.0);
         near(reach(Segment { toward: 2.0 * FRAC_PI_2, ..arc }), 1.0);
         near(reach(Segment { to: DVec2::new(2.0, 1.0), ..arc }), 6.0);
-        near(reach(Segment { twist: 2.0 * FRAC_PI_2, bend: -0.5, ..arc }), 3.0);
+        near(reach(Segment { twist: FRAC_PI_2, bend: -0.5, steps: 1, ..arc }), 2.0);
         near(reach(Segment { bend: 0.0, ..arc }), 0.0);
     }
 

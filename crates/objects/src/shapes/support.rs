@@ -5,7 +5,9 @@ use std::sync::Arc;
 use burgeon_base::error::{Error, ErrorKind, Result};
 use burgeon_base::{MemoryOwner, Stop};
 use burgeon_kit::Vector;
-use burgeon_shapes::{BeveledSolid, CombinedSolid, EdgeKind, ImageAxis, Selector, SolidOperation, SplitAxis, SplitParts};
+use burgeon_shapes::{
+    BeveledSolid, CombinedSolid, EdgeKind, ImageAxis, Selector, SolidOperation, SplitAxis, SplitParts,
+};
 use glam::DVec3;
 
 use super::edge_distances::EdgeDistances;
@@ -110,8 +112,9 @@ impl ShapeObject {
 /// Warns if a solid was moved by `shift` (m) for a set operation.
 pub(super) fn warn_of_shift(method: &str, shift: f64) {
     if shift > 0.0 {
-        let text =
-            format!("a set operation fails numerically, and succeeded with one of the solids moved by {shift:.1e} m");
+        let text = format!(
+            "a set operation fails numerically, and succeeded with one of the solids moved by {shift:.1e} m"
+        );
         let help = "let faces that almost coincide coincide, or move one of the solids by a millimetre";
         warn(method, &text, help);
     }

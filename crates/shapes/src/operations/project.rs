@@ -89,8 +89,11 @@ mod tests {
         let map = |size: f64| UvMap::of_plane(&solid.scope, [0, 2], DVec2::splat(size));
         let solid = solid.project(map(1.0)).project_set(&set, map(2.0));
         let tool = Shape::cuboid(DVec3::new(2.0, 9.0, 2.0)).translate(DVec3::new(1.0, -1.0, 1.0));
-        let cut =
-            solid.combine(&tool, crate::SolidOperation::Difference).expect("no error").solid.expect("a solid");
+        let cut = solid
+            .combine(&tool, crate::SolidOperation::Difference)
+            .expect("no error")
+            .solid
+            .expect("a solid");
         let front =
             |shape: &Shape| shape.faces(&crate::Selector::read("front").expect("a selector")).expect("faces");
         let whole = SizedParts::Repeated(vec![PartSize::Flexible(1.0)]);

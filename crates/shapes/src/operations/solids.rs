@@ -42,6 +42,11 @@ impl CombinedSolid {
     fn exact(solid: Option<Shape>) -> Self {
         Self { solid, shift: 0.0 }
     }
+
+    /// Returns true if nothing remains, or at most a layer on a surface of `area` (m²) that is as thick as the shift.
+    pub(crate) fn leaves_less_than(&self, area: f64) -> bool {
+        self.solid.as_ref().is_none_or(|rest| rest.volume() < NOTHING + self.shift * area)
+    }
 }
 
 /// Maximum number of triangles of both solids together.
@@ -52,6 +57,8 @@ const LONG: usize = 20_000;
 const BYTES_OF_TRIANGLE: usize = 1000;
 /// Distance (m) within which points of a result almost coincide.
 const NEAR: f64 = 1e-7;
+/// Volume (m³) below which nothing remains.
+const NOTHING: f64 = 1e-9;
 /// Number of faces between two checks for cancellation.
 const STRETCH: usize = 4096;
 
@@ -88,14 +95,24 @@ impl Shape {
             let [one, two] = [(self, "bool.a"), (other, "bool.b")]
                 .map(|(shape, tag)| shape.with_styles(|style| FaceStyle::with_automatic_tag(style, tag)));
             let solid = match operation {
-                SolidOperation::Union => Self::join(&[&one, &two])?,
+                SolidOperation::Union => Self::join_separate(&[&one, &two])?,
                 SolidOperation::Difference => Some(one),
                 SolidOperation::Intersection => None,
             };
             return Ok(CombinedSolid::exact(solid));
         }
+        self.combine_by(&SolidAttempt::ALL, other, operation)
+    }
+
+    /// Returns the result of the first of these attempts that succeeds, for closed solids whose boxes touch.
+    fn combine_by(
+        &self,
+        attempts: &[SolidAttempt],
+        other: &Self,
+        operation: SolidOperation,
+    ) -> Result<CombinedSolid> {
         let (mut cause, mut unsound) = (String::new(), None);
-        for attempt in SolidAttempt::ALL {
+        for attempt in attempts.iter().copied() {
             let Some([one, two]) = attempt.solids(self, other) else { continue };
             let shift = attempt.shift(other).length();
             match one.combine_once(&two, operation)? {
@@ -184,12 +201,10 @@ impl Shape {
         if faces.is_empty() {
             return Ok(Ok(None));
         }
-        let whole = weld_closed(PolygonMesh::new(points, faces));
-        let mut mesh = whole.clone();
-        remove_flat_triangles(&mut mesh);
-        let mut mesh = merge_coplanar(&mesh)?;
+        let mut whole = weld_closed(PolygonMesh::new(points, faces));
+        remove_flat_triangles(&mut whole, NEAR)?;
+        let mut mesh = merge_coplanar(&whole)?;
         if !mesh.is_fillable() {
-            // Corners on edges can make a face too narrow, which flat triangles beside it do not.
             mesh = merge_fillable(&whole)?;
         }
         // Coincident faces of the solids can leave both sides of a face without thickness.
@@ -322,4 +337,27 @@ fn triangles(
     separate_surfaces(&mut points, &mut corners, &mut faces);
     let points = points.into_iter().flat_map(|at| at.to_array()).collect();
     Ok((points, corners, faces))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_moved_solid_is_reported_with_its_distance_and_the_volume_is_almost_the_same() {
+        let [one, two] = [0.0, 1.0].map(|x| Shape::cuboid(DVec3::splat(2.0)).translate(DVec3::X * x));
+        let exact = one.combine(&two, SolidOperation::Union).expect("a union");
+        assert!(exact.shift == 0.0);
+        for fraction in [1e-6, -7e-6, 4e-5] {
+            let moved = one.combine_by(&[SolidAttempt::Moved(fraction)], &two, SolidOperation::Union);
+            let CombinedSolid { solid: Some(solid), shift } = moved.expect("a union") else {
+                panic!("nothing")
+            };
+            assert!((shift - 2.0 * fraction.abs()).abs() < 0.01 * shift, "{shift}");
+            let inside = one.combine_by(&[SolidAttempt::Moved(fraction)], &one, SolidOperation::Difference);
+            let inside = inside.expect("a layer");
+            assert!(inside.leaves_less_than(one.area()) && !inside.leaves_less_than(0.0));
+            assert!(solid.is_closed() && (solid.volume() - 12.0).abs() < 24.0 * shift, "{}", solid.volume());
+        }
+    }
 }
