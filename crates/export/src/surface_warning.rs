@@ -106,7 +106,16 @@ mod tests {
             let path = format!("a.{extension}");
             warnings(Format::of(Path::new(&path)).unwrap(), &scene).concat()
         });
-        insta::assert_snapshot!(all.join("\n"), @"");
+        insta::assert_snapshot!(all.join("\n"), @r"
+        a.ply has no dirt map of 2 materials: the file has one colour on a surface
+          help: write .glb, .gltf, .html or .png, which have it
+        a.x3d has no dirt map of 2 materials: the file has one image on a surface
+          help: write .glb, .gltf, .html or .png, which have it
+        a.usda has no dirt map of 2 materials: the file has one set of texture coordinates
+          help: write .glb, .gltf, .html or .png, which have it
+        a.stl has no dirt map of 2 materials: the file has no materials
+          help: write .glb, .gltf, .html or .png, which have it
+        ");
     }
 
     #[test]

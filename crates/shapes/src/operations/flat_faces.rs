@@ -8,7 +8,6 @@ use glam::DVec3;
 use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 
-use super::merge::remove_opposite_faces;
 use crate::mesh::PolygonMesh;
 
 /// Largest thickness of a triangle without area, as a fraction of its longest edge.
@@ -24,9 +23,9 @@ const STRETCH: usize = 4096;
 ///
 /// Fails if the work of this thread is cancelled.
 pub(crate) fn remove_flat_triangles(mesh: &mut PolygonMesh, near: f64) -> Result<()> {
-    remove_opposite_faces(mesh);
     let mut triangles: Vec<Option<[u32; 3]>> =
         mesh.faces.iter().map(|face| <[u32; 3]>::try_from(face.rings[0].as_slice()).ok()).collect();
+    cancel_opposite(&mut triangles);
     let points = std::mem::take(&mut mesh.points);
     let is_flat = |triangle: [u32; 3]| is_thin(triangle.map(|point| points[point as usize]), near);
     let mut flat: VecDeque<usize> =
@@ -69,18 +68,33 @@ pub(crate) fn remove_flat_triangles(mesh: &mut PolygonMesh, near: f64) -> Result
             }
         }
     }
-    mesh.points = points;
-    for (face, triangle) in mesh.faces.iter_mut().zip(&triangles) {
-        match triangle {
-            Some(triangle) => face.rings[0].copy_from_slice(triangle),
-            None if face.rings[0].len() == 3 => face.rings.clear(),
-            None => {}
+    cancel_opposite(&mut triangles);
+    let faces =
+        std::mem::take(&mut mesh.faces).into_iter().zip(triangles).filter_map(|(mut face, triangle)| {
+            face.rings[0].copy_from_slice(&triangle?);
+            Some(face)
+        });
+    *mesh = PolygonMesh::new(points, faces.collect());
+    Ok(())
+}
+
+/// Removes pairs of triangles with the same corners and opposite directions.
+fn cancel_opposite(triangles: &mut [Option<[u32; 3]>]) {
+    let mut known: FxHashMap<[u32; 3], SmallVec<[usize; 1]>> = FxHashMap::default();
+    for number in 0..triangles.len() {
+        let Some([a, b, c]) = triangles[number] else { continue };
+        let [a, b, c] = if a < b && a < c {
+            [a, b, c]
+        } else if b < c {
+            [b, c, a]
+        } else {
+            [c, a, b]
+        };
+        match known.get_mut(&[a, c, b]).and_then(SmallVec::pop) {
+            Some(other) => (triangles[other], triangles[number]) = (None, None),
+            None => known.entry([a, b, c]).or_default().push(number),
         }
     }
-    mesh.faces.retain(|face| !face.rings.is_empty());
-    *mesh = PolygonMesh::new(std::mem::take(&mut mesh.points), std::mem::take(&mut mesh.faces));
-    remove_opposite_faces(mesh);
-    Ok(())
 }
 
 /// Returns true if a triangle is thinner than `near` (m), or than the rounding errors of its longest edge.
