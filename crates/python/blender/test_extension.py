@@ -252,7 +252,7 @@ def test_a_dirt_map_has_a_layer_of_its_own_and_multiplies_the_color(extension, a
     assert np.ptp(uvs[0], axis=0) == pytest.approx([6, 3]) and np.ptp(uvs[1], axis=0) == pytest.approx([6, 3])
     mix = color.links[0].from_node
     assert (mix.type, mix.blend_type, mix.data_type) == ("MIX", "MULTIPLY", "RGBA")
-    sources = {it.to_socket.identifier: it.from_node for it in model.all_objects[0].material_slots[0].material.node_tree.links if it.to_node == mix}
+    sources = {it.identifier: it.links[0].from_node for it in mix.inputs if it.links}
     assert {key: Path(it.image.filepath).stem for key, it in sources.items()} == {"A_Color": "brick", "B_Color": "stain"}
     mapping = sources["B_Color"].inputs["Vector"].links[0].from_node
     assert mapping.inputs["Vector"].links[0].from_node.uv_map == "Dirt"

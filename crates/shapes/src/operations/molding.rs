@@ -68,8 +68,8 @@ impl Shape {
     }
 
     /// Returns the solid between a face and another one with as many corners: the first corner of one is joined to the
-    /// first of the other. Sides that are not flat become triangles, with the tag "loft.side". Projections of the other face stay on
-    /// it.
+    /// first of the other. Sides that are not flat become triangles, with the tag "loft.side". Projections of the other
+    /// face stay on it.
     ///
     /// Fails unless both shapes are one face, and if their numbers of rings or corners differ.
     pub fn loft(&self, other: &Self) -> Result<Self> {

@@ -68,11 +68,11 @@ impl Shape {
     /// Returns the solid that a horizontal face sweeps along a path with mitred joints, and the numbers (from 0) of the
     /// segments that are too short for their joints, so that the solid crosses itself.
     ///
-    /// The origin of the world is the point of the profile that follows the path; x is to the right and y upwards, seen along
-    /// the path. Projections of the profile move to both ends, and the sides have none. At the start, up is the world's z axis, or its y axis if the path begins upright; each joint turns
-    /// it by the shortest rotation. What remains at the end of a closed path is distributed over it. Faces have the tags
-    /// "sweep.start", "sweep.side" and "sweep.end". Fails unless the shape is one horizontal face, and if the path has fewer than
-    /// two points or turns back.
+    /// The origin of the world is the point of the profile that follows the path; x is to the right and y upwards, seen
+    /// along the path. Projections of the profile move to both ends, and the sides have none. At the start, up is the
+    /// world's z axis, or its y axis if the path begins upright; each joint turns it by the shortest rotation. What remains
+    /// at the end of a closed path is distributed over it. Faces have the tags "sweep.start", "sweep.side" and "sweep.end".
+    /// Fails unless the shape is one horizontal face, and if the path has fewer than two points or turns back.
     pub fn sweep(&self, path: &SweepPath) -> Result<(Self, Vec<usize>)> {
         let rings = self.profile()?;
         let points = path_points(path)?;
