@@ -13,7 +13,7 @@ import burgeon
 import numpy as np
 from mathutils import Matrix
 
-# Custom property with the key of an object, a feature's collection, a mesh or a material that a run has made.
+# Custom property with the key of an object, a feature's collection, a mesh, a material or a node that a run has made.
 KEY = "burgeon"
 # Custom property with the facts from which a material was made. If they change, it is made again.
 FACTS = "burgeon_facts"
@@ -97,6 +97,8 @@ def _material(it: burgeon.Material, owned: Owned) -> bpy.types.Material:
     surface.inputs["Alpha"].default_value = it.color[3]
     surface.inputs["Emission Color"].default_value = (*it.emissive, 1.0)
     surface.inputs["Emission Strength"].default_value = 1.0 if any(it.emissive) else 0.0
+    for node in [node for node in known.node_tree.nodes if KEY in node]:
+        known.node_tree.nodes.remove(node)
     if it.texture:
         texture = _image(known, surface, it.texture, it.texture_size, LAYERS[0])
         if texture is not None:
@@ -115,7 +117,7 @@ def _relief(material: bpy.types.Material, surface: bpy.types.Node, it: burgeon.M
     if texture is None:
         return
     texture.image.colorspace_settings.name = "Non-Color"
-    relief = tree.nodes.new("ShaderNodeNormalMap")
+    relief = _node(tree, "ShaderNodeNormalMap")
     relief.uv_map = LAYERS[0]
     relief.inputs["Strength"].default_value = it.normal_scale
     relief.location = (surface.location.x, surface.location.y - 300)
@@ -130,7 +132,7 @@ def _dirt(material: bpy.types.Material, surface: bpy.types.Node, it: burgeon.Mat
     if texture is None:
         return
     color = surface.inputs["Base Color"]
-    mix = tree.nodes.new("ShaderNodeMix")
+    mix = _node(tree, "ShaderNodeMix")
     mix.data_type, mix.blend_type = "RGBA", "MULTIPLY"
     mix.location = (surface.location.x - 200, surface.location.y - 100)
     # The node has sockets of the same names for each type of data.
@@ -146,6 +148,13 @@ def _dirt(material: bpy.types.Material, surface: bpy.types.Node, it: burgeon.Mat
     tree.links.new(result, color)
 
 
+def _node(tree: bpy.types.NodeTree, kind: str) -> bpy.types.Node:
+    """Adds a node, which is removed when the material is made again."""
+    node = tree.nodes.new(kind)
+    node[KEY] = kind
+    return node
+
+
 def _image(
     material: bpy.types.Material, surface: bpy.types.Node, path: str, size: list[float] | None, layer: str
 ) -> bpy.types.Node | None:
@@ -155,9 +164,9 @@ def _image(
         image = bpy.data.images.load(path, check_existing=True)
     except RuntimeError:
         return None
-    texture = tree.nodes.new("ShaderNodeTexImage")
+    texture = _node(tree, "ShaderNodeTexImage")
     texture.image = image
-    mapping, source = tree.nodes.new("ShaderNodeMapping"), tree.nodes.new("ShaderNodeUVMap")
+    mapping, source = _node(tree, "ShaderNodeMapping"), _node(tree, "ShaderNodeUVMap")
     source.uv_map = layer
     width, height = size or (1.0, 1.0)
     mapping.inputs["Scale"].default_value = (1.0 / width, 1.0 / height, 1.0)
