@@ -96,6 +96,11 @@ impl Files {
         self.warnings.extend(warning.into());
     }
 
+    /// Adds warnings about the content of a file.
+    pub(super) fn warn_all(&mut self, warnings: impl IntoIterator<Item = Warning>) {
+        self.warnings.extend(warnings);
+    }
+
     /// Adds notes about the content of a file.
     pub(super) fn note_all(&mut self, notes: impl IntoIterator<Item = String>) {
         self.notes.extend(notes);

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::facts::Export;
 use super::files::Files;
+use super::surface_warning::surface_warnings;
 use burgeon_base::error::{Error, Result};
 
 /// Properties of every file format.
@@ -32,10 +33,27 @@ pub struct Format {
     pub needs: &'static [Need],
     /// Set if the file can include ids and attributes of features ([`SceneFacts::metadata`](super::SceneFacts)).
     pub has_metadata: bool,
+    /// Detail of a surface's material in the file; `None` for files without surfaces.
+    pub surface: Option<SurfaceDetail>,
     /// Set if copies of textures are written next to the file.
     pub has_textures: bool,
     /// Function that writes an export to a future file.
     pub write: fn(&Export<'_>, &Path, &mut Files) -> Result<()>,
+}
+
+/// Detail of a surface's material that a format has, each with all of the ones before.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum SurfaceDetail {
+    /// Surfaces without materials.
+    Outline,
+    /// A colour, with the mean of the texture.
+    Color,
+    /// A texture.
+    Texture,
+    /// A normal map with the coordinates of the texture.
+    Relief,
+    /// A dirt map with coordinates of its own.
+    Full,
 }
 
 /// Part of a run that a format describes.
@@ -94,6 +112,13 @@ impl Format {
     /// Returns true if the format describes this part of a run.
     pub fn needs(&self, need: Need) -> bool {
         self.needs.contains(&need)
+    }
+
+    /// Writes an export to the future file `path`, and adds warnings of what its materials have and the format lacks.
+    pub(super) fn export(&self, export: &Export<'_>, path: &Path, files: &mut Files) -> Result<()> {
+        (self.write)(export, path, files)?;
+        files.warn_all(surface_warnings(self, export.scene, path)?);
+        Ok(())
     }
 
     /// Returns true if a scene and a camera are enough for the format.

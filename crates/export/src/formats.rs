@@ -6,7 +6,7 @@ use std::path::Path;
 
 use super::conversions::way_to;
 use super::format::Need::{Attributes, Layers, Picture, Recipe, Reports, Scene};
-use super::format::{FileFormat, Format, always, find};
+use super::format::{FileFormat, Format, SurfaceDetail, always, find};
 use super::{city, gltf, layers, obj, page, render, solids, svg, table, usd, x3d};
 use burgeon_base::error::Result;
 use burgeon_scene::image;
@@ -17,6 +17,7 @@ pub const GLB: Format = Format {
     media_type: "model/gltf-binary",
     needs: &[Scene, Recipe],
     has_metadata: true,
+    surface: Some(SurfaceDetail::Full),
     has_textures: false,
     write: gltf::write_glb,
 };
@@ -32,6 +33,7 @@ pub const PNG: Format = Format {
     media_type: "image/png",
     needs: &[Scene, Picture],
     has_metadata: false,
+    surface: Some(SurfaceDetail::Full),
     has_textures: false,
     write: render::write,
 };
@@ -47,6 +49,7 @@ pub const PAGE: Format = Format {
     media_type: "text/html",
     needs: &[Scene, Recipe],
     has_metadata: true,
+    surface: Some(SurfaceDetail::Full),
     has_textures: false,
     write: page::write,
 };
@@ -64,6 +67,7 @@ pub static FORMATS: [Format; 17] = [
         media_type: "model/gltf+json",
         needs: &[Scene, Recipe],
         has_metadata: true,
+        surface: Some(SurfaceDetail::Full),
         has_textures: true,
         write: gltf::write_gltf,
     },
@@ -79,6 +83,7 @@ pub static FORMATS: [Format; 17] = [
         media_type: "model/obj",
         needs: &[Scene],
         has_metadata: false,
+        surface: Some(SurfaceDetail::Relief),
         has_textures: true,
         write: obj::write,
     },
@@ -88,6 +93,7 @@ pub static FORMATS: [Format; 17] = [
         media_type: "model/vnd.usda",
         needs: &[Scene],
         has_metadata: false,
+        surface: Some(SurfaceDetail::Relief),
         has_textures: true,
         write: usd::write,
     },
@@ -102,6 +108,7 @@ pub static FORMATS: [Format; 17] = [
         media_type: "model/stl",
         needs: &[Scene],
         has_metadata: false,
+        surface: Some(SurfaceDetail::Outline),
         has_textures: false,
         write: solids::write_stl,
     },
@@ -115,6 +122,7 @@ pub static FORMATS: [Format; 17] = [
         media_type: "model/3mf",
         needs: &[Scene],
         has_metadata: false,
+        surface: Some(SurfaceDetail::Color),
         has_textures: false,
         write: solids::write_three_mf,
     },
@@ -128,6 +136,7 @@ pub static FORMATS: [Format; 17] = [
         media_type: "application/ply",
         needs: &[Scene],
         has_metadata: false,
+        surface: Some(SurfaceDetail::Color),
         has_textures: false,
         write: solids::write_ply,
     },
@@ -143,6 +152,7 @@ pub static FORMATS: [Format; 17] = [
         media_type: "image/svg+xml",
         needs: &[Scene],
         has_metadata: false,
+        surface: Some(SurfaceDetail::Color),
         has_textures: false,
         write: svg::write,
     },
@@ -156,6 +166,7 @@ pub static FORMATS: [Format; 17] = [
         media_type: "model/x3d+xml",
         needs: &[Scene],
         has_metadata: false,
+        surface: Some(SurfaceDetail::Texture),
         has_textures: true,
         write: x3d::write,
     },
@@ -169,6 +180,7 @@ pub static FORMATS: [Format; 17] = [
         media_type: "application/city+json",
         needs: &[Scene, Attributes],
         has_metadata: false,
+        surface: Some(SurfaceDetail::Outline),
         has_textures: false,
         write: city::write,
     },
@@ -182,6 +194,7 @@ pub static FORMATS: [Format; 17] = [
         media_type: "application/city+json-seq",
         needs: &[Scene, Attributes],
         has_metadata: false,
+        surface: Some(SurfaceDetail::Outline),
         has_textures: false,
         write: city::write_sequence,
     },
@@ -195,6 +208,7 @@ pub static FORMATS: [Format; 17] = [
         media_type: "application/geo+json",
         needs: &[Layers],
         has_metadata: false,
+        surface: None,
         has_textures: false,
         write: layers::write_geojson_file,
     },
@@ -208,6 +222,7 @@ pub static FORMATS: [Format; 17] = [
         media_type: "image/vnd.dxf",
         needs: &[Layers],
         has_metadata: false,
+        surface: None,
         has_textures: false,
         write: layers::write_dxf_file,
     },
@@ -221,6 +236,7 @@ pub static FORMATS: [Format; 17] = [
         media_type: "application/geopackage+sqlite3",
         needs: &[Layers],
         has_metadata: false,
+        surface: None,
         has_textures: false,
         write: layers::write_geopackage_file,
     },
@@ -234,6 +250,7 @@ pub static FORMATS: [Format; 17] = [
         media_type: "text/csv",
         needs: &[Reports],
         has_metadata: false,
+        surface: None,
         has_textures: false,
         write: table::write,
     },

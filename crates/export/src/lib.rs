@@ -38,6 +38,7 @@ mod page;
 mod recipe;
 mod render;
 mod solids;
+mod surface_warning;
 pub mod svg;
 mod table;
 mod target;
@@ -53,7 +54,7 @@ mod samples;
 pub use city::write_city_sequence;
 pub use facts::{Export, InstanceStorage, SceneFacts, SystemFacts};
 pub use files::{Files, OpenFile, Out, Stoppable};
-pub use format::{FileFormat, Format, Need, extension_list};
+pub use format::{FileFormat, Format, Need, SurfaceDetail, extension_list};
 pub use formats::{FORMATS, GLB, PAGE, PNG};
 pub use level_storage::LevelStorage;
 pub use levels::LevelModel;
@@ -115,7 +116,7 @@ impl Files {
     pub fn export(&mut self, export: &Export<'_>, path: &Path) -> Result<()> {
         let format = Format::of(path)?;
         format.file.check()?;
-        (format.write)(export, path, self)
+        format.export(export, path, self)
     }
 }
 

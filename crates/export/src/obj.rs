@@ -12,7 +12,7 @@ use super::decompose::normal_matrix;
 use super::facts::Export;
 use super::files::Files;
 use super::stem;
-use super::texture::{Images, dirt_warning};
+use super::texture::Images;
 use burgeon_base::error::Result;
 use burgeon_base::text::grouped;
 use burgeon_base::{Warning, WarningKind};
@@ -27,7 +27,6 @@ pub(super) fn write(export: &Export<'_>, path: &Path, files: &mut Files) -> Resu
     let Export { scene, facts, .. } = export;
     let checked = check(scene)?;
     files.warn(size_warning(&checked, path));
-    files.warn(dirt_warning(&checked, path));
     let images = Images::load_with_normals(&checked)?;
     let copies: Vec<String> =
         images.copy_names(path, files).iter().map(|name| word(name, "texture")).collect();

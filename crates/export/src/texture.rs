@@ -5,7 +5,6 @@ use super::color::linear;
 use super::files::Files;
 use super::stem;
 use burgeon_base::error::{Error, Result};
-use burgeon_base::{Warning, WarningKind};
 use burgeon_scene::image::{self, ImageKind};
 use burgeon_scene::{Material, Texture};
 use std::fs;
@@ -115,17 +114,6 @@ impl Images {
         }
         names
     }
-}
-
-/// Returns a warning if shown materials have dirt maps, for a format that has one image and one set of texture coordinates.
-pub(super) fn dirt_warning(checked: &SceneCheck<'_>, path: &Path) -> Option<Warning> {
-    let materials = checked.scene.materials.iter().zip(&checked.materials);
-    let count = materials.filter(|(material, shown)| **shown && material.dirt_map.is_some()).count();
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let materials = if count == 1 { "a material".into() } else { format!("{count} materials") };
-    let message = format!("{name} has no dirt map of {materials}: the format has one image on a surface");
-    let warning = Warning::new(WarningKind::NoEffect, message);
-    (count > 0).then(|| warning.help("write a .glb, a page or a render, which have it"))
 }
 
 /// Maximum size of an image file (bytes).

@@ -217,6 +217,60 @@ def test_two_models_with_materials_of_one_name_keep_their_colors(extension, add)
     assert sorted(it.name for it in bpy.data.materials) == ["stone", "stone.001"]
 
 
+STAINED = """
+local s = lsystem({ object = extruder })
+s:axiom(F(1))
+s:interpret("F(h)", function(this, h)
+  local wall = shape({ { 0, 0, 0 }, { 6, 0, 0 }, { 6, 0, 3 }, { 0, 0, 3 } })
+  this:shape(wall:project(2, 2):project(6, 3, { set = "stain" }):material({
+    DIRT
+    roughness = 0.9,
+  }))
+end)
+s:derive(0)
+"""
+
+
+def test_a_dirt_map_has_a_layer_of_its_own_and_multiplies_the_color(extension, add, tmp_path):
+    for name, color in (("brick", (0.8, 0.4, 0.3)), ("stain", (0.5, 0.5, 0.5))):
+        image = bpy.data.images.new(name, 4, 4)
+        image.pixels[:] = [*color, 1.0] * 16
+        image.filepath_raw, image.file_format = str(tmp_path / f"{name}.png"), "PNG"
+        image.save()
+    dirt = 'dirt = "stain.png", dirt_size = { 6, 3 }, dirt_set = "stain",'
+    model, path = add(STAINED.replace("DIRT", f'texture = "brick.png", texture_size = {{ 2, 2 }}, {dirt}'))
+
+    def looks():
+        (item,) = model.all_objects
+        tree = item.material_slots[0].material.node_tree
+        surface = next(node for node in tree.nodes if node.type == "BSDF_PRINCIPLED")
+        return item.data.uv_layers, surface.inputs["Base Color"]
+
+    layers, color = looks()
+    assert layers.keys() == ["UVMap", "Dirt"]
+    uvs = [np.array([tuple(it.vector) for it in layer.uv]) for layer in layers]
+    assert np.ptp(uvs[0], axis=0) == pytest.approx([6, 3]) and np.ptp(uvs[1], axis=0) == pytest.approx([6, 3])
+    mix = color.links[0].from_node
+    assert (mix.type, mix.blend_type, mix.data_type) == ("MIX", "MULTIPLY", "RGBA")
+    sources = {it.identifier: it.links[0].from_node for it in mix.inputs if it.links}
+    assert {key: Path(it.image.filepath).stem for key, it in sources.items()} == {"A_Color": "brick", "B_Color": "stain"}
+    mapping = sources["B_Color"].inputs["Vector"].links[0].from_node
+    assert mapping.inputs["Vector"].links[0].from_node.uv_map == "Dirt"
+    assert tuple(mapping.inputs["Scale"].default_value) == pytest.approx((1 / 6, 1 / 3, 1))
+
+    # Without a texture, the colour of the material is multiplied.
+    path.write_text(STAINED.replace("DIRT", f'color = "#ff0000", {dirt}'), encoding="utf-8")
+    assert bpy.ops.burgeon.run() == {"FINISHED"}
+    mix = looks()[1].links[0].from_node
+    base = next(it for it in mix.inputs if it.identifier == "A_Color")
+    assert tuple(base.default_value)[:3] == pytest.approx((1, 0, 0)) and not base.links
+
+    path.write_text(STAINED.replace("DIRT", 'texture = "brick.png",'), encoding="utf-8")
+    assert bpy.ops.burgeon.run() == {"FINISHED"}
+    layers, color = looks()
+    assert layers.keys() == ["UVMap"] and color.links[0].from_node.type == "TEX_IMAGE"
+
+
 def pulse_until_done(extension, limit=30):
     end = time.monotonic() + limit
     while extension.work._jobs or extension.work._waiting:

@@ -64,6 +64,14 @@ impl Buffer {
         Some(Self { content, shape: vec![count, 2], typestr: FLOAT })
     }
 
+    /// Returns the texture coordinates (m) of the dirt map of a part; `None` if there is no such part.
+    pub(crate) fn second_texture_coordinates(model: &ModelData, mesh: usize, part: usize) -> Option<Self> {
+        let part = model.part(mesh, part)?;
+        let count = part.uvs.len();
+        let numbers = (0..count).flat_map(|vertex| part.second_uv(vertex).to_array()).collect();
+        Some(Self { content: BufferContent::Floats(numbers), shape: vec![count, 2], typestr: FLOAT })
+    }
+
     /// Returns the unit normals of a part, which the model stores in a shorter form; `None` if there is no such part.
     pub(crate) fn normals(model: &ModelData, mesh: usize, part: usize) -> Option<Self> {
         let normals = &model.part(mesh, part)?.normals;

@@ -79,6 +79,11 @@ impl ScriptModel {
         Buffer::texture_coordinates(&self.0, mesh, part)
     }
 
+    /// Returns the texture coordinates (m) of the dirt map of a part.
+    fn second_uvs(&self, py: Python<'_>, mesh: usize, part: usize) -> Option<Buffer> {
+        py.detach(|| Buffer::second_texture_coordinates(&self.0, mesh, part))
+    }
+
     /// Returns the corners of the triangles of a part.
     fn triangles(&self, py: Python<'_>, mesh: usize, part: usize) -> Option<Buffer> {
         py.detach(|| Buffer::triangles(&self.0, mesh, part))
@@ -173,6 +178,8 @@ fn material_json(material: &Material) -> Value {
         "texture_size": material.image_size(),
         "normal_map": material.normal_map.as_ref().map(|map| map.image.path.to_string_lossy()),
         "normal_scale": material.normal_map.as_ref().map_or(1.0, |map| map.scale),
+        "dirt_map": material.dirt_map.as_ref().map(|map| map.image.path.to_string_lossy()),
+        "dirt_size": material.dirt_map.as_ref().map(|map| map.image.size),
     })
 }
 

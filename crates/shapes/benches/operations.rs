@@ -62,7 +62,7 @@ fn main() {
         ("intersection", SolidOperation::Intersection),
     ] {
         measure(name, || {
-            let solid = ball.combine(&other, operation).unwrap().unwrap();
+            let solid = ball.combine(&other, operation).unwrap().solid.unwrap();
             format!("{triangles} triangles each, volume {:.4} m³", solid.volume())
         });
     }

@@ -30,7 +30,8 @@ pub use cut::plane::CutPlane;
 pub use edge_kind::EdgeKind;
 pub use mesh::{PolygonFace, PolygonMesh};
 pub use operations::{
-    BeveledSolid, CutFace, EnvelopeLimit, HoleOutline, Setback, ShapeRoof, SolidOperation, SweepPath,
+    BeveledSolid, CombinedSolid, CutFace, EnvelopeLimit, HoleOutline, Setback, ShapeRoof, SolidOperation,
+    SweepPath,
 };
 pub use revolve::Revolution;
 pub use scope::Scope;

@@ -6,7 +6,7 @@ use burgeon_geometry::ClosedMesh;
 use burgeon_scene::nearest_on_triangle;
 use glam::DVec3;
 
-use crate::{Shape, ShapeBody};
+use crate::{Shape, ShapeBody, SolidOperation};
 
 /// Distance (m) within which shapes touch, and above which they overlap.
 const CONTACT: f64 = 1e-5;
@@ -24,6 +24,13 @@ impl Shape {
             return Ok(local.cmpge(DVec3::ZERO).all() && local.cmple(self.scope.size).all());
         }
         Ok(self.closed_mesh()?.contains(place))
+    }
+
+    /// Returns true if a whole solid is inside this one, and the distance (m) by which this one was moved, because the set
+    /// operation fails numerically without it. Fails if a shape is open.
+    pub fn contains_solid(&self, other: &Self) -> Result<(bool, f64)> {
+        let rest = other.combine(self, SolidOperation::Difference)?;
+        Ok((rest.leaves_less_than(self.area().min(other.area())), rest.shift))
     }
 
     /// Returns the distance (m) from a position to the nearest point of the faces, or of the edge; 0 inside a solid.

@@ -4,6 +4,7 @@ use std::cell::RefCell;
 use std::sync::Arc;
 
 use burgeon_scene::Material;
+use glam::DAffine3;
 
 use crate::UvMap;
 
@@ -103,6 +104,26 @@ impl FaceStyle {
             Err(at) => own.sets.insert(at, (Arc::clone(set), map)),
         }
         Some(Arc::new(own))
+    }
+
+    /// Returns `style` with its projections moved with the face.
+    pub(crate) fn with_projections_moved(style: &SharedStyle, frame: &DAffine3) -> SharedStyle {
+        let own = style.as_deref()?;
+        if !own.is_projected() {
+            return style.clone();
+        }
+        let uv = own.uv.map(|map| map.transform(frame));
+        let sets = own.sets.iter().map(|(name, map)| (Arc::clone(name), map.transform(frame))).collect();
+        Some(Arc::new(Self { uv, sets, ..own.clone() }))
+    }
+
+    /// Returns `style` with the projections of another style.
+    pub(crate) fn with_projections_of(style: &SharedStyle, other: &SharedStyle) -> SharedStyle {
+        let (uv, sets) =
+            other.as_deref().map_or_else(Default::default, |other| (other.uv, other.sets.clone()));
+        let own = style.as_deref().cloned().unwrap_or_default();
+        let new = Self { uv, sets, ..own };
+        (new != Self::default()).then(|| Arc::new(new))
     }
 
     /// Returns the projection of a named set of texture coordinates.

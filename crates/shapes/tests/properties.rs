@@ -149,7 +149,7 @@ proptest! {
         let shift = DVec3::from(shift);
         let two = two.translate(if lattice { shift.round() } else { shift });
         let volume = |operation| -> Result<f64, TestCaseError> {
-            match one.combine(&two, operation) {
+            match one.combine(&two, operation).map(|combined| combined.solid) {
                 Ok(Some(solid)) => {
                     let mesh = solid.mesh();
                     for face in &mesh.faces {

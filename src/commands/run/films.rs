@@ -112,9 +112,11 @@ impl RunCommand {
             return Err(Error::usage(format!("--set and --frames both use `{name}`; remove one"))
                 .help(format!("remove --set {name} or --frames {name}")));
         }
+        let strict = options.strict;
         let (settings, picture) = self.film_settings(axis.count_within(self.film.frame_limit)?);
         let mut writer = self.film_writer(settings, options.limits.memory, &Arc::default())?;
         let film = Film::new(&self.script.script, options, axis, self.film.frame_limit)?;
+        let mut warnings = Vec::new();
         {
             let progress = Arc::clone(&film.progress);
             let _progress = ProgressDisplay::saying(move || progress.message(), !self.script.json);
@@ -126,10 +128,14 @@ impl RunCommand {
                 }
                 writer.add(frame)
             })?;
+            warnings.extend(writer.take_warnings());
+            if let (true, Some(first)) = (strict, warnings.first()) {
+                return Err(first.clone().into_error());
+            }
             writer.finish()?;
         }
         let (modules, triangles) = film.largest();
-        let warnings = film.warnings();
+        warnings.splice(..0, film.warnings());
         if self.script.json {
             let document = json!({
                 "ok": true,

@@ -8,6 +8,7 @@ use crate::film_model::FilmModel;
 use crate::film_settings::FilmSettings;
 use crate::format::{Format, Need, extension_list};
 use crate::{Export, PNG, SceneFacts, stem};
+use burgeon_base::Warning;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::stop::Stop;
 use burgeon_picture::Picture;
@@ -184,7 +185,10 @@ impl FilmWriter {
                     } else {
                         let scene = frame.scene.as_ref().ok_or_else(missing)?;
                         let (picture, facts) = (&Picture::default(), SceneFacts::default());
-                        (format.write)(&Export { scene, picture, facts }, &path, &mut files)?;
+                        format.export(&Export { scene, picture, facts }, &path, &mut files)?;
+                        if self.number == 0 {
+                            self.files.warn_all(files.take_warnings());
+                        }
                     }
                     files.publish()?;
                 }
@@ -203,6 +207,11 @@ impl FilmWriter {
         }
         self.number += 1;
         Ok(())
+    }
+
+    /// Takes the warnings about the files of the first frame, which are alike in the others.
+    pub fn take_warnings(&mut self) -> Vec<Warning> {
+        self.files.take_warnings()
     }
 
     /// Publishes the files of all frames together. Fails if frames are missing.

@@ -123,16 +123,3 @@ fn repeated_instances_that_are_merged_keep_the_second_set() {
     let own = &scene.meshes[0].parts[0].second_uvs;
     assert_eq!(merged.second_uvs, [own.as_slice(), own.as_slice()].concat());
 }
-
-#[test]
-fn formats_with_one_set_warn_of_dirt_maps() {
-    let folder = tempfile::tempdir().unwrap();
-    let scene = samples::stained_boxes(folder.path());
-    for (name, count) in [("a.obj", 1), ("a.x3d", 1), ("a.usda", 1), ("a.glb", 0)] {
-        let mut files = Files::default();
-        files.scene(&scene, &folder.path().join(name), &Picture::default()).unwrap();
-        let warnings: Vec<String> = files.take_warnings().iter().map(ToString::to_string).collect();
-        let about = warnings.iter().filter(|text| text.contains("has no dirt map of 2 materials"));
-        assert_eq!(about.count(), count, "{name}: {warnings:?}");
-    }
-}

@@ -6,7 +6,7 @@ use crate::check::{SceneCheck, check};
 use crate::decompose::{Steps, Trs, decompose};
 use crate::facts::Export;
 use crate::files::Files;
-use crate::texture::{Images, dirt_warning};
+use crate::texture::Images;
 use crate::xml::identifier;
 use burgeon_base::error::Result;
 use burgeon_scene::Instance;
@@ -31,7 +31,6 @@ struct InstancerGroup<'a> {
 /// Writes a `.usda` file to `path`, with copies of the textures next to it.
 pub(crate) fn write(export: &Export<'_>, path: &Path, files: &mut Files) -> Result<()> {
     let checked = check(export.scene)?;
-    files.warn(dirt_warning(&checked, path));
     let images = Images::load_with_normals(&checked)?;
     let names = images.copy_names(path, files);
     for (name, file) in names.iter().zip(&images.files) {

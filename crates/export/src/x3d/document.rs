@@ -7,12 +7,11 @@ use std::path::Path;
 use super::super::check::{SceneCheck, check, shown_parts};
 use super::super::decompose::{Steps, decompose, y_up};
 use super::super::files::Files;
-use super::super::texture::{Images, dirt_warning};
+use super::super::texture::Images;
 use super::super::{Export, stem, uri};
 use super::shape::{self, LookReference, Looks, numbers, title, write_feature};
 use crate::xml::{escape_list_item, identifier};
 use burgeon_base::error::Result;
-use burgeon_base::{Warning, WarningKind};
 use burgeon_scene::{Instance, ScenePackage};
 use burgeon_spatial::ReferenceFrame;
 use glam::{DAffine3, DQuat, DVec3};
@@ -69,8 +68,6 @@ struct DocumentPlan<'a> {
 pub(crate) fn write(export: &Export<'_>, path: &Path, files: &mut Files) -> Result<()> {
     let Export { scene, facts, .. } = export;
     let checked = check(scene)?;
-    files.warn(relief_warning(&checked, path));
-    files.warn(dirt_warning(&checked, path));
     let images = Images::load(&checked)?;
     let names = images.copy_names(path, files);
     for (name, file) in names.iter().zip(&images.files) {
@@ -90,17 +87,6 @@ pub(crate) fn write(export: &Export<'_>, path: &Path, files: &mut Files) -> Resu
         }
         out.write_all(tail(checked.origin).as_bytes())
     })
-}
-
-/// Returns a warning if shown materials have normal maps.
-fn relief_warning(checked: &SceneCheck<'_>, path: &Path) -> Option<Warning> {
-    let materials = checked.scene.materials.iter().zip(&checked.materials);
-    let count = materials.filter(|(material, shown)| **shown && material.normal_map.is_some()).count();
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let materials = if count == 1 { "a material".into() } else { format!("{count} materials") };
-    let message = format!("{name} has no normal map of {materials}: X3D 3.3 has no normal maps");
-    let warning = Warning::new(WarningKind::NoEffect, message);
-    (count > 0).then(|| warning.help("write a .glb, a .usda or an .obj, which have them"))
 }
 
 /// Returns the text before the items.

@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use glam::{DQuat, DVec2};
 
+use crate::cross_section::section::Section;
 use crate::frame::Frame;
 use burgeon_base::error::{Error, Limit, Result};
 
@@ -114,6 +115,42 @@ impl Segment {
         Ok(end)
     }
 
+    /// Returns the radius (m) of the bend; infinite without a bend.
+    pub fn radius(&self) -> f64 {
+        if self.bend == 0.0 { f64::INFINITY } else { (self.length / self.bend).abs() }
+    }
+
+    /// Returns the greatest distance (m) of a point of `section` from the path towards the centre of the bend, at the
+    /// `stations` of this segment; 0 without a bend. If it is above the [`radius`](Self::radius), the sweep crosses itself.
+    ///
+    /// ```
+    /// use burgeon_geometry::{Frame, Section, Segment};
+    ///
+    /// let section = Section::rectangle(2.0, 0.5)?;
+    /// let arc = Segment { steps: 4, ..Segment::default() }.curved(1.25);
+    /// let mut stations = Vec::new();
+    /// arc.stations(Frame::default(), &mut stations)?;
+    /// assert!((arc.inner_reach(&section, &stations) - 1.0).abs() < 1e-12);
+    /// assert_eq!(arc.radius(), 0.8);
+    /// # Ok::<(), burgeon_base::error::Error>(())
+    /// ```
+    pub fn inner_reach(&self, section: &Section, stations: &[Station]) -> f64 {
+        let Some(start) = stations.first().filter(|_| self.bend != 0.0).map(|station| station.frame) else {
+            return 0.0;
+        };
+        let (sin, cos) = self.toward.sin_cos();
+        let axis =
+            start.heading.cross(start.left * cos - start.up * sin) * (self.length / self.bend).signum();
+        let reach = |station: &Station| {
+            let mut frame = station.frame;
+            let inward = axis.cross(frame.heading);
+            frame.roll(station.twist);
+            let inward = DVec2::new(-frame.left.dot(inward), -frame.up.dot(inward)) * station.scale;
+            section.points().map(|point| point.dot(inward)).fold(0.0, f64::max)
+        };
+        stations.iter().map(reach).fold(0.0, f64::max)
+    }
+
     /// Returns the frame without twist at a `fraction` of the length.
     fn frame(&self, start: Frame, fraction: f64) -> Frame {
         let angle = self.bend * fraction;
@@ -191,6 +228,28 @@ mod tests {
         assert!(stations.iter().all(|s| s.frame.heading.dot(s.frame.position - centre).abs() < 1e-12));
         assert!(close(end.position, centre + start.heading * 2.0) && close(end.heading, start.left));
         assert!(close(end.up, start.up));
+    }
+
+    #[test]
+    fn the_inner_reach_is_that_of_the_side_at_the_centre_of_the_bend() {
+        // 1 m to the right, 3 m to the left, and 2 m to both sides in the direction of the section's y.
+        let ring = [(1.0, -2.0), (1.0, 2.0), (-3.0, 2.0), (-3.0, -2.0)].map(DVec2::from).to_vec();
+        let section = Section::polygon(&crate::planar::Rings(vec![ring])).expect("a section");
+        let reach = |segment: Segment| {
+            let mut stations = Vec::new();
+            segment.stations(Frame::default(), &mut stations).expect("an arc");
+            segment.inner_reach(&section, &stations)
+        };
+        let arc = Segment { bend: 0.5, steps: 3, ..Segment::default() };
+        let near = |reach: f64, expected: f64| assert!((reach - expected).abs() < 1e-9, "{reach}");
+        near(reach(arc), 3.0);
+        near(reach(Segment { bend: -0.5, ..arc }), 1.0);
+        near(reach(Segment { length: -1.0, ..arc }), 1.0);
+        near(reach(Segment { toward: FRAC_PI_2, ..arc }), 2.0);
+        near(reach(Segment { toward: 2.0 * FRAC_PI_2, ..arc }), 1.0);
+        near(reach(Segment { to: DVec2::new(2.0, 1.0), ..arc }), 6.0);
+        near(reach(Segment { twist: FRAC_PI_2, bend: -0.5, steps: 1, ..arc }), 2.0);
+        near(reach(Segment { bend: 0.0, ..arc }), 0.0);
     }
 
     #[test]

@@ -3,6 +3,7 @@
 //! Input: the calls of scripts. Output: closed meshes, or meshes with a count of their open edges. Meshes already drawn
 //! never change.
 
+mod bend;
 mod joint;
 mod object;
 mod options;

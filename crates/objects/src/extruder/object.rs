@@ -3,8 +3,9 @@
 use std::any::Any;
 use std::sync::Arc;
 
+use super::bend::bend_warning;
 use super::joint::Joint;
-use super::options::ExtruderOptions;
+use super::options::{ExtruderOptions, check_resolution};
 use super::state::{ExtruderState, SolidRun};
 use crate::MaterialOptions;
 use crate::frame_stack::{FrameStack, FrameStackMark};
@@ -276,15 +277,6 @@ fn shade(section: Section, smooth: bool) -> Section {
     if smooth { section.creased(CREASE.to_radians()) } else { section.marked(false) }
 }
 
-fn check_resolution(along: u32, around: u32) -> Result<()> {
-    for (name, count) in [("along", along), ("around", around)] {
-        if count > 4096 {
-            return Err(Error::argument(format!("extruder: {name} must be at most 4096, not {count}")));
-        }
-    }
-    Ok(())
-}
-
 impl Extruder {
     /// Creates an extruder in its initial state.
     pub fn new(options: ExtruderOptions) -> Result<Self> {
@@ -372,6 +364,7 @@ impl Extruder {
         let state = &mut self.state;
         let mut stations: SmallVec<[Station; 2]> = SmallVec::new();
         let end = segment.stations(state.frame, &mut stations)?;
+        self.warnings.extend(bend_warning(&segment, &section, &stations));
         let maker = self.drawing.maker();
         let free = segment.length / segment.steps as f64;
         match state.run.as_mut().zip(joint) {

@@ -1,5 +1,6 @@
 //! The fields of extruders.
 
+use burgeon_base::error::{Error, Result};
 use burgeon_kit::{Color, Vector, fields};
 use glam::DVec3;
 
@@ -38,4 +39,14 @@ pub struct ExtruderOptions {
     /// Initial direction of extrusion.
     #[default(Vector(DVec3::Z))]
     pub heading: Vector,
+}
+
+/// Fails unless the numbers of divisions are at most 4096.
+pub(super) fn check_resolution(along: u32, around: u32) -> Result<()> {
+    for (name, count) in [("along", along), ("around", around)] {
+        if count > 4096 {
+            return Err(Error::argument(format!("extruder: {name} must be at most 4096, not {count}")));
+        }
+    }
+    Ok(())
 }

@@ -18,7 +18,7 @@ use super::options::ScatterOptions;
 use super::part_sizes::SplitSizes;
 use super::relations::ShapeOrPlace;
 use super::roofing::ShapeRoofOptions;
-use super::support::{read_selector, split_axis, unit, warn_of_split};
+use super::support::{read_selector, split_axis, unit, warn_of_shift, warn_of_split};
 use super::sweep_path::{SweepPathOptions, SweepPoints};
 use super::tiles::{ProjectOptions, TileLength};
 use super::trimming::TrimOptions;
@@ -579,10 +579,10 @@ impl ShapeObject {
         let place = match other {
             ShapeOrPlace::Place(place) => place,
             ShapeOrPlace::Shape(other) => {
-                let rest = other.shape.combine(&self.shape, SolidOperation::Difference);
-                return Ok(rest
-                    .map_err(|error| error.about("shape:contains"))?
-                    .is_none_or(|rest| rest.volume() < 1e-9));
+                let found = self.shape.contains_solid(&other.shape);
+                let (is_inside, shift) = found.map_err(|error| error.about("shape:contains"))?;
+                warn_of_shift("contains", shift);
+                return Ok(is_inside);
             }
         };
         self.shape.contains(place).map_err(|error| error.about("shape:contains"))

@@ -5,7 +5,9 @@ use std::sync::Arc;
 use burgeon_base::error::{Error, ErrorKind, Result};
 use burgeon_base::{MemoryOwner, Stop};
 use burgeon_kit::Vector;
-use burgeon_shapes::{BeveledSolid, EdgeKind, ImageAxis, Selector, SolidOperation, SplitAxis, SplitParts};
+use burgeon_shapes::{
+    BeveledSolid, CombinedSolid, EdgeKind, ImageAxis, Selector, SolidOperation, SplitAxis, SplitParts,
+};
 use glam::DVec3;
 
 use super::edge_distances::EdgeDistances;
@@ -44,8 +46,9 @@ impl ShapeObject {
         let name = format!("shape:{method}");
         let kind = kind.map(|kind| EdgeKind::read(&kind)).transpose().map_err(|error| error.about(&name))?;
         let kinds = kind.as_ref().map(std::slice::from_ref);
-        let BeveledSolid { solid, failed, narrow } =
+        let BeveledSolid { solid, failed, narrow, shift } =
             self.shape.bevel(distance, segments, kinds).map_err(|error| error.about(&name))?;
+        warn_of_shift(method, shift);
         let remarks = [
             (failed, "could not be cut off"),
             (narrow, "are on faces that are too narrow, so that cuts meet there"),
@@ -91,19 +94,9 @@ impl ShapeObject {
         other: &Self,
         operation: SolidOperation,
     ) -> Result<Option<Self>> {
-        match self.shape.combine_with_shift(&other.shape, operation) {
-            Ok((solid, shift)) => {
-                if shift > 0.0 {
-                    let text = format!(
-                        "the set operation fails numerically, and succeeded with the second solid moved by {:.1e} m",
-                        shift
-                    );
-                    warn(
-                        method,
-                        &text,
-                        "let faces that almost coincide coincide, or move one of the solids by a millimetre",
-                    );
-                }
+        match self.shape.combine(&other.shape, operation) {
+            Ok(CombinedSolid { solid, shift }) => {
+                warn_of_shift(method, shift);
                 Ok(solid.map(|solid| self.with_shape(solid)))
             }
             Err(error) if *error.kind() != ErrorKind::Geometry => Err(error),
@@ -113,6 +106,17 @@ impl ShapeObject {
                 Ok(Some(self.clone()))
             }
         }
+    }
+}
+
+/// Warns if a solid was moved by `shift` (m) for a set operation.
+pub(super) fn warn_of_shift(method: &str, shift: f64) {
+    if shift > 0.0 {
+        let text = format!(
+            "a set operation fails numerically, and succeeded with one of the solids moved by {shift:.1e} m"
+        );
+        let help = "let faces that almost coincide coincide, or move one of the solids by a millimetre";
+        warn(method, &text, help);
     }
 }
 

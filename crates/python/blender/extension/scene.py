@@ -13,10 +13,12 @@ import burgeon
 import numpy as np
 from mathutils import Matrix
 
-# Custom property with the key of an object, a feature's collection, a mesh or a material that a run has made.
+# Custom property with the key of an object, a feature's collection, a mesh, a material or a node that a run has made.
 KEY = "burgeon"
 # Custom property with the facts from which a material was made. If they change, it is made again.
 FACTS = "burgeon_facts"
+# Texture coordinates of textures and normal maps, and of dirt maps.
+LAYERS = ("UVMap", "Dirt")
 
 
 class Owned:
@@ -70,7 +72,7 @@ def _left(owned: Owned) -> list[bpy.types.ID]:
 
 
 def _material(it: burgeon.Material, owned: Owned) -> bpy.types.Material:
-    images = (it.texture, it.texture_size, it.normal_map, it.normal_scale)
+    images = (it.texture, it.texture_size, it.normal_map, it.normal_scale, it.dirt_map, it.dirt_size)
     facts = repr((it.color, it.metallic, it.roughness, it.emissive, images))
     name = it.name or "Burgeon"
     known = next((m for m in owned.materials if m[KEY] == name), None)
@@ -95,10 +97,14 @@ def _material(it: burgeon.Material, owned: Owned) -> bpy.types.Material:
     surface.inputs["Alpha"].default_value = it.color[3]
     surface.inputs["Emission Color"].default_value = (*it.emissive, 1.0)
     surface.inputs["Emission Strength"].default_value = 1.0 if any(it.emissive) else 0.0
+    for node in [node for node in known.node_tree.nodes if KEY in node]:
+        known.node_tree.nodes.remove(node)
     if it.texture:
-        texture = _image(known, surface, it, it.texture)
+        texture = _image(known, surface, it.texture, it.texture_size, LAYERS[0])
         if texture is not None:
             known.node_tree.links.new(texture.outputs["Color"], surface.inputs["Base Color"])
+    if it.dirt_map:
+        _dirt(known, surface, it)
     if it.normal_map:
         _relief(known, surface, it)
     return known
@@ -107,20 +113,50 @@ def _material(it: burgeon.Material, owned: Owned) -> bpy.types.Material:
 def _relief(material: bpy.types.Material, surface: bpy.types.Node, it: burgeon.Material) -> None:
     """Adds the normal map of a material."""
     tree = material.node_tree
-    texture = _image(material, surface, it, it.normal_map)
+    texture = _image(material, surface, it.normal_map, it.texture_size, LAYERS[0])
     if texture is None:
         return
     texture.image.colorspace_settings.name = "Non-Color"
-    relief = tree.nodes.new("ShaderNodeNormalMap")
-    relief.uv_map = "UVMap"
+    relief = _node(tree, "ShaderNodeNormalMap")
+    relief.uv_map = LAYERS[0]
     relief.inputs["Strength"].default_value = it.normal_scale
     relief.location = (surface.location.x, surface.location.y - 300)
     tree.links.new(texture.outputs["Color"], relief.inputs["Color"])
     tree.links.new(relief.outputs["Normal"], surface.inputs["Normal"])
 
 
+def _dirt(material: bpy.types.Material, surface: bpy.types.Node, it: burgeon.Material) -> None:
+    """Multiplies the colour of a material by its dirt map."""
+    tree = material.node_tree
+    texture = _image(material, surface, it.dirt_map, it.dirt_size, LAYERS[1])
+    if texture is None:
+        return
+    color = surface.inputs["Base Color"]
+    mix = _node(tree, "ShaderNodeMix")
+    mix.data_type, mix.blend_type = "RGBA", "MULTIPLY"
+    mix.location = (surface.location.x - 200, surface.location.y - 100)
+    # The node has sockets of the same names for each type of data.
+    factor = next(socket for socket in mix.inputs if socket.identifier == "Factor_Float")
+    a, b = (next(socket for socket in mix.inputs if socket.identifier == name) for name in ("A_Color", "B_Color"))
+    result = next(socket for socket in mix.outputs if socket.identifier == "Result_Color")
+    factor.default_value = 1.0
+    if color.links:
+        tree.links.new(color.links[0].from_socket, a)
+    else:
+        a.default_value = color.default_value
+    tree.links.new(texture.outputs["Color"], b)
+    tree.links.new(result, color)
+
+
+def _node(tree: bpy.types.NodeTree, kind: str) -> bpy.types.Node:
+    """Adds a node, which is removed when the material is made again."""
+    node = tree.nodes.new(kind)
+    node[KEY] = kind
+    return node
+
+
 def _image(
-    material: bpy.types.Material, surface: bpy.types.Node, it: burgeon.Material, path: str
+    material: bpy.types.Material, surface: bpy.types.Node, path: str, size: list[float] | None, layer: str
 ) -> bpy.types.Node | None:
     """Adds the node of an image; texture coordinates are in metres. Returns None if it cannot be read."""
     tree = material.node_tree
@@ -128,11 +164,11 @@ def _image(
         image = bpy.data.images.load(path, check_existing=True)
     except RuntimeError:
         return None
-    texture = tree.nodes.new("ShaderNodeTexImage")
+    texture = _node(tree, "ShaderNodeTexImage")
     texture.image = image
-    mapping, source = tree.nodes.new("ShaderNodeMapping"), tree.nodes.new("ShaderNodeUVMap")
-    source.uv_map = "UVMap"
-    width, height = it.texture_size or (1.0, 1.0)
+    mapping, source = _node(tree, "ShaderNodeMapping"), _node(tree, "ShaderNodeUVMap")
+    source.uv_map = layer
+    width, height = size or (1.0, 1.0)
     mapping.inputs["Scale"].default_value = (1.0 / width, 1.0 / height, 1.0)
     for at, node in enumerate((source, mapping, texture)):
         node.location = (surface.location.x - 600 + 200 * at, surface.location.y)
@@ -177,7 +213,10 @@ def _fill(mesh: bpy.types.Mesh, it: burgeon.Mesh, by_material: dict[int, bpy.typ
     mesh.polygons.foreach_set("material_index", slots)
     if all(len(part.uvs) == part.vertex_count for part in parts):
         uvs = np.concatenate([part.uvs for part in parts]).astype(np.float32)
-        mesh.uv_layers.new(name="UVMap").uv.foreach_set("vector", uvs[corners].ravel())
+        mesh.uv_layers.new(name=LAYERS[0]).uv.foreach_set("vector", uvs[corners].ravel())
+        if any(part.material.dirt_map for part in parts):
+            uvs = np.concatenate([part.second_uvs for part in parts]).astype(np.float32)
+            mesh.uv_layers.new(name=LAYERS[1]).uv.foreach_set("vector", uvs[corners].ravel())
     mesh.update(calc_edges=True)
     if all(len(part.normals) == part.vertex_count for part in parts):
         normals = np.concatenate([part.normals for part in parts]).astype(np.float32)

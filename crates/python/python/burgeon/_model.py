@@ -72,6 +72,10 @@ class Material:
     normal_map: str | None
     #: Factor of the slopes of the normal map.
     normal_scale: float
+    #: Path of the dirt map, by which the colour is multiplied, if there is one.
+    dirt_map: str | None
+    #: Width and height (m) of one repetition of the dirt map.
+    dirt_size: list[float] | None
 
 
 @dataclass(frozen=True)
@@ -115,6 +119,11 @@ class Part:
     def uvs(self) -> numpy.ndarray:
         """Texture coordinates (m), of the shape (n, 2)."""
         return as_array(self._raw.uvs(*self._place))
+
+    @cached_property
+    def second_uvs(self) -> numpy.ndarray:
+        """Texture coordinates (m) of the dirt map, of the shape (n, 2); those of the texture unless it has its own."""
+        return as_array(self._raw.second_uvs(*self._place))
 
     @cached_property
     def triangles(self) -> numpy.ndarray:

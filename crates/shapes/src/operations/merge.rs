@@ -20,6 +20,17 @@ impl Shape {
     ///
     /// Points within 1 µm are joined.
     pub fn join(parts: &[&Self]) -> Result<Option<Self>> {
+        let joined = Self::all_faces(parts)?;
+        Ok(joined.map(|(mesh, axes)| Self::of_mesh(weld(&mesh, SAME_POINT), axes)))
+    }
+
+    /// Returns one shape with the faces of all `parts`, as [`join`](Self::join) does, for parts that do not touch: no points are joined.
+    pub(crate) fn join_separate(parts: &[&Self]) -> Result<Option<Self>> {
+        Ok(Self::all_faces(parts)?.map(|(mesh, axes)| Self::of_mesh(mesh, axes)))
+    }
+
+    /// Returns the faces of all `parts` in their order, and the axes of the first; `None` without parts.
+    fn all_faces(parts: &[&Self]) -> Result<Option<(PolygonMesh, DMat3)>> {
         let Some(first) = parts.first() else { return Ok(None) };
         let mut mesh = PolygonMesh::default();
         for part in parts {
@@ -33,7 +44,7 @@ impl Shape {
                 face
             }));
         }
-        Ok(Some(Self::of_mesh(weld(&mesh, SAME_POINT), first.scope.axes)))
+        Ok(Some((mesh, first.scope.axes)))
     }
 
     /// Returns the shape with coplanar neighbouring faces of the same style joined, points on edges inserted there, and
@@ -221,7 +232,8 @@ fn merge(mesh: &PolygonMesh, fillable: bool) -> Result<PolygonMesh> {
         group.iter().flat_map(|face| mesh.faces[*face].edges()).for_each(|edge| rim.add(edge));
         let edges: Vec<[u32; 2]> = rim.rest().collect();
         match trace_loops(&edges, |point| (turn * mesh.at(point)).truncate()) {
-            Some(loops) => {
+            // A ring without area would be missing.
+            Some(loops) if loops.iter().flatten().map(Vec::len).sum::<usize>() == edges.len() => {
                 let joined = faces.len();
                 faces
                     .extend(loops.into_iter().map(|rings| PolygonFace { rings, style: first.style.clone() }));
@@ -230,7 +242,7 @@ fn merge(mesh: &PolygonMesh, fillable: bool) -> Result<PolygonMesh> {
                     faces.extend(group.iter().map(|face| mesh.faces[*face].clone()));
                 }
             }
-            None => faces.extend(group.iter().map(|face| mesh.faces[*face].clone())),
+            _ => faces.extend(group.iter().map(|face| mesh.faces[*face].clone())),
         }
     }
     let mut merged = PolygonMesh::new(mesh.points.clone(), faces);
@@ -272,9 +284,16 @@ fn remove_straight_points(mesh: &mut PolygonMesh) {
         let (back, forth) = (points[one as usize] - at, points[other as usize] - at);
         back.cross(forth).length() <= 1e-9 * back.length() * forth.length() && back.dot(forth) < 0.0
     };
-    for ring in mesh.faces.iter_mut().flat_map(|face| &mut face.rings) {
-        if ring.iter().filter(|point| !is_straight(**point)).count() > 2 {
-            ring.retain(|point| !is_straight(*point));
+    let straight: Vec<bool> =
+        (0..mesh.points.len()).map(|point| u32::try_from(point).is_ok_and(is_straight)).collect();
+    let mut removed = straight.clone();
+    // A ring needs three points, and its neighbours have the same ones.
+    for ring in mesh.faces.iter().flat_map(|face| &face.rings) {
+        if ring.iter().filter(|point| !straight[**point as usize]).count() <= 2 {
+            ring.iter().for_each(|point| removed[*point as usize] = false);
         }
+    }
+    for ring in mesh.faces.iter_mut().flat_map(|face| &mut face.rings) {
+        ring.retain(|point| !removed[*point as usize]);
     }
 }

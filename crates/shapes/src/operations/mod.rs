@@ -26,5 +26,5 @@ pub use inset::Setback;
 pub(crate) use merge::{SAME_POINT, merge_coplanar, weld};
 pub use regions::EnvelopeLimit;
 pub use roof::ShapeRoof;
-pub use solids::SolidOperation;
+pub use solids::{CombinedSolid, SolidOperation};
 pub use sweep::SweepPath;

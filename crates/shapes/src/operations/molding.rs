@@ -68,7 +68,8 @@ impl Shape {
     }
 
     /// Returns the solid between a face and another one with as many corners: the first corner of one is joined to the
-    /// first of the other. Sides that are not flat become triangles, with the tag "loft.side".
+    /// first of the other. Sides that are not flat become triangles, with the tag "loft.side". Projections of the other
+    /// face stay on it.
     ///
     /// Fails unless both shapes are one face, and if their numbers of rings or corners differ.
     pub fn loft(&self, other: &Self) -> Result<Self> {
@@ -91,7 +92,10 @@ impl Shape {
             .help("turn a face with shape:reverse(), or swap the faces"));
         }
         let style = |tag: &'static str| FaceStyle::with_automatic_tag(&one.style, tag);
-        let [bottom, side, top] = ["loft.bottom", "loft.side", "loft.top"].map(style);
+        let [bottom, side, mut top] = ["loft.bottom", "loft.side", "loft.top"].map(style);
+        if two.style.as_deref().is_some_and(FaceStyle::is_projected) {
+            top = FaceStyle::with_projections_of(&top, &two.style);
+        }
         let mut builder = PolygonMeshBuilder::default();
         let places = |ring: &Vec<u32>, mesh: &crate::PolygonMesh| -> Vec<DVec3> {
             ring.iter().map(|point| mesh.at(*point)).collect()

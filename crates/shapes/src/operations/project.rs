@@ -16,6 +16,8 @@ impl Shape {
 
     /// Returns the shape with the projection of a set of texture coordinates on all faces: the named one, or the first one if the
     /// name is empty. All operations keep the sets of the faces that they cut, move or join.
+    /// Faces that an operation adds to a face, as extrusions and tapers do, have its sets; faces of cuts and the sides of sweeps
+    /// have none.
     ///
     /// ```
     /// use burgeon_shapes::{Shape, UvMap};
@@ -45,15 +47,7 @@ impl Shape {
         if !any {
             return self;
         }
-        self.with_styles(|style| {
-            let own = style.as_deref()?;
-            if !own.is_projected() {
-                return style.clone();
-            }
-            let uv = own.uv.map(|map| map.transform(frame));
-            let sets = own.sets.iter().map(|(name, map)| (Arc::clone(name), map.transform(frame))).collect();
-            Some(Arc::new(FaceStyle { uv, sets, ..own.clone() }))
-        })
+        self.with_styles(|style| FaceStyle::with_projections_moved(style, frame))
     }
 }
 
@@ -89,8 +83,11 @@ mod tests {
         let map = |size: f64| UvMap::of_plane(&solid.scope, [0, 2], DVec2::splat(size));
         let solid = solid.project(map(1.0)).project_set(&set, map(2.0));
         let tool = Shape::cuboid(DVec3::new(2.0, 9.0, 2.0)).translate(DVec3::new(1.0, -1.0, 1.0));
-        let cut =
-            solid.combine(&tool, crate::SolidOperation::Difference).expect("no error").expect("a solid");
+        let cut = solid
+            .combine(&tool, crate::SolidOperation::Difference)
+            .expect("no error")
+            .solid
+            .expect("a solid");
         let front =
             |shape: &Shape| shape.faces(&crate::Selector::read("front").expect("a selector")).expect("faces");
         let whole = SizedParts::Repeated(vec![PartSize::Flexible(1.0)]);

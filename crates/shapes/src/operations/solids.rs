@@ -28,6 +28,27 @@ pub enum SolidOperation {
     Intersection,
 }
 
+/// Result of a set operation.
+#[derive(Debug, Clone)]
+pub struct CombinedSolid {
+    /// Solid; `None` if nothing remains.
+    pub solid: Option<Shape>,
+    /// Distance (m) by which the second solid was moved; 0 unless the operation fails numerically without it.
+    pub shift: f64,
+}
+
+impl CombinedSolid {
+    /// Creates the result of an operation on solids that were not moved.
+    fn exact(solid: Option<Shape>) -> Self {
+        Self { solid, shift: 0.0 }
+    }
+
+    /// Returns true if nothing remains, or at most a layer on a surface of `area` (m²) that is as thick as the shift.
+    pub(crate) fn leaves_less_than(&self, area: f64) -> bool {
+        self.solid.as_ref().is_none_or(|rest| rest.volume() < NOTHING + self.shift * area)
+    }
+}
+
 /// Maximum number of triangles of both solids together.
 const MOST_TRIANGLES: usize = 2_000_000;
 /// Number of triangles of both solids from which an operation can take long, so that a thread of its own computes it.
@@ -36,11 +57,13 @@ const LONG: usize = 20_000;
 const BYTES_OF_TRIANGLE: usize = 1000;
 /// Distance (m) within which points of a result almost coincide.
 const NEAR: f64 = 1e-7;
+/// Volume (m³) below which nothing remains.
+const NOTHING: f64 = 1e-9;
 /// Number of faces between two checks for cancellation.
 const STRETCH: usize = 4096;
 
 impl Shape {
-    /// Returns the union, difference or intersection of two solids; `None` if nothing remains.
+    /// Returns the union, difference or intersection of two solids.
     ///
     /// Faces keep their tags, and get "bool.a" or "bool.b" by the solid that they come from. Coplanar parts of a face
     /// are joined, unless a face would be too narrow. If the operation fails numerically, it is tried with points joined that
@@ -54,18 +77,13 @@ impl Shape {
     /// use glam::DVec3;
     ///
     /// let block = Shape::cuboid(DVec3::splat(2.0));
-    /// let cut = block.combine(&block.translate(DVec3::ONE), SolidOperation::Difference)?.expect("7 of 8 parts");
-    /// assert!(cut.is_closed() && (cut.volume() - 7.0).abs() < 1e-9);
-    /// assert_eq!(cut.body.faces(), 9);
-    /// # Ok::<(), burgeon_base::Error>(())
+    /// let cut = block.combine(&block.translate(DVec3::ONE), SolidOperation::Difference)?;
+    /// let solid = cut.solid.expect("7 of 8 parts");
+    /// assert!(solid.is_closed() && (solid.volume() - 7.0).abs() < 1e-9 && cut.shift == 0.0);
+    /// assert_eq!(solid.body.faces(), 9);
+    /// # Ok::<(), burgeon_base::error::Error>(())
     /// ```
-    pub fn combine(&self, other: &Self, operation: SolidOperation) -> Result<Option<Self>> {
-        self.combine_with_shift(other, operation).map(|(solid, _)| solid)
-    }
-
-    /// Returns the solid of [`combine`](Self::combine), and the distance (m) by which the second solid was moved; 0 unless the
-    /// operation fails numerically without it.
-    pub fn combine_with_shift(&self, other: &Self, operation: SolidOperation) -> Result<(Option<Self>, f64)> {
+    pub fn combine(&self, other: &Self, operation: SolidOperation) -> Result<CombinedSolid> {
         for shape in [self, other] {
             if !shape.is_closed() {
                 let open = shape.mesh().open_edges().count();
@@ -77,22 +95,34 @@ impl Shape {
             let [one, two] = [(self, "bool.a"), (other, "bool.b")]
                 .map(|(shape, tag)| shape.with_styles(|style| FaceStyle::with_automatic_tag(style, tag)));
             let solid = match operation {
-                SolidOperation::Union => Self::join(&[&one, &two])?,
+                SolidOperation::Union => Self::join_separate(&[&one, &two])?,
                 SolidOperation::Difference => Some(one),
                 SolidOperation::Intersection => None,
             };
-            return Ok((solid, 0.0));
+            return Ok(CombinedSolid::exact(solid));
         }
+        self.combine_by(&SolidAttempt::ALL, other, operation)
+    }
+
+    /// Returns the result of the first of these attempts that succeeds, for closed solids whose boxes touch.
+    fn combine_by(
+        &self,
+        attempts: &[SolidAttempt],
+        other: &Self,
+        operation: SolidOperation,
+    ) -> Result<CombinedSolid> {
         let (mut cause, mut unsound) = (String::new(), None);
-        for attempt in SolidAttempt::ALL {
+        for attempt in attempts.iter().copied() {
             let Some([one, two]) = attempt.solids(self, other) else { continue };
             let shift = attempt.shift(other).length();
             match one.combine_once(&two, operation)? {
-                Ok(Some(solid)) if !solid.is_sound()? => unsound = unsound.or(Some((Some(solid), shift))),
-                Ok(solid) => return Ok((solid, shift)),
+                Ok(Some(solid)) if !solid.is_sound()? => {
+                    unsound = unsound.or(Some(CombinedSolid { solid: Some(solid), shift }));
+                }
+                Ok(solid) => return Ok(CombinedSolid { solid, shift }),
                 // The crate refuses empty results, too.
                 Err(_) if attempt == SolidAttempt::Exact && self.leaves_nothing(other, operation)? => {
-                    return Ok((None, 0.0));
+                    return Ok(CombinedSolid::exact(None));
                 }
                 Err(found) if cause.is_empty() => cause = found,
                 Err(_) => {}
@@ -171,12 +201,10 @@ impl Shape {
         if faces.is_empty() {
             return Ok(Ok(None));
         }
-        let whole = weld_closed(PolygonMesh::new(points, faces));
-        let mut mesh = whole.clone();
-        remove_flat_triangles(&mut mesh);
-        let mut mesh = merge_coplanar(&mesh)?;
+        let mut whole = weld_closed(PolygonMesh::new(points, faces));
+        remove_flat_triangles(&mut whole, NEAR)?;
+        let mut mesh = merge_coplanar(&whole)?;
         if !mesh.is_fillable() {
-            // Corners on edges can make a face too narrow, which flat triangles beside it do not.
             mesh = merge_fillable(&whole)?;
         }
         // Coincident faces of the solids can leave both sides of a face without thickness.
@@ -199,8 +227,8 @@ impl Shape {
             SolidOperation::Union => Ok(false),
             SolidOperation::Intersection => Ok(!self.overlaps(other)?),
             SolidOperation::Difference => {
-                let both =
-                    self.combine(other, SolidOperation::Intersection)?.map_or(0.0, |both| both.volume());
+                let both = self.combine(other, SolidOperation::Intersection)?.solid;
+                let both = both.map_or(0.0, |both| both.volume());
                 Ok(both >= self.volume() * (1.0 - 1e-9))
             }
         }
@@ -309,4 +337,27 @@ fn triangles(
     separate_surfaces(&mut points, &mut corners, &mut faces);
     let points = points.into_iter().flat_map(|at| at.to_array()).collect();
     Ok((points, corners, faces))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_moved_solid_is_reported_with_its_distance_and_the_volume_is_almost_the_same() {
+        let [one, two] = [0.0, 1.0].map(|x| Shape::cuboid(DVec3::splat(2.0)).translate(DVec3::X * x));
+        let exact = one.combine(&two, SolidOperation::Union).expect("a union");
+        assert!(exact.shift == 0.0);
+        for fraction in [1e-6, -7e-6, 4e-5] {
+            let moved = one.combine_by(&[SolidAttempt::Moved(fraction)], &two, SolidOperation::Union);
+            let CombinedSolid { solid: Some(solid), shift } = moved.expect("a union") else {
+                panic!("nothing")
+            };
+            assert!((shift - 2.0 * fraction.abs()).abs() < 0.01 * shift, "{shift}");
+            let inside = one.combine_by(&[SolidAttempt::Moved(fraction)], &one, SolidOperation::Difference);
+            let inside = inside.expect("a layer");
+            assert!(inside.leaves_less_than(one.area()) && !inside.leaves_less_than(0.0));
+            assert!(solid.is_closed() && (solid.volume() - 12.0).abs() < 24.0 * shift, "{}", solid.volume());
+        }
+    }
 }

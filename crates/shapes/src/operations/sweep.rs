@@ -2,7 +2,7 @@
 
 use burgeon_base::error::{Error, Result};
 use burgeon_base::{MemoryOwner, Stop};
-use glam::{DMat3, DVec2, DVec3};
+use glam::{DAffine3, DMat3, DVec2, DVec3};
 
 use crate::mesh::PolygonMeshBuilder;
 use crate::style::FaceStyle;
@@ -68,11 +68,11 @@ impl Shape {
     /// Returns the solid that a horizontal face sweeps along a path with mitred joints, and the numbers (from 0) of the
     /// segments that are too short for their joints, so that the solid crosses itself.
     ///
-    /// The origin of the world is the point of the profile that follows the path; x is to the right and y upwards, seen along
-    /// the path. At the start, up is the world's z axis, or its y axis if the path begins upright; each joint turns
-    /// it by the shortest rotation. What remains at the end of a closed path is distributed over it. Faces have the tags
-    /// "sweep.start", "sweep.side" and "sweep.end". Fails unless the shape is one horizontal face, and if the path has fewer than
-    /// two points or turns back.
+    /// The origin of the world is the point of the profile that follows the path; x is to the right and y upwards, seen
+    /// along the path. Projections of the profile move to both ends, and the sides have none. At the start, up is the
+    /// world's z axis, or its y axis if the path begins upright; each joint turns it by the shortest rotation. What remains
+    /// at the end of a closed path is distributed over it. Faces have the tags "sweep.start", "sweep.side" and "sweep.end".
+    /// Fails unless the shape is one horizontal face, and if the path has fewer than two points or turns back.
     pub fn sweep(&self, path: &SweepPath) -> Result<(Self, Vec<usize>)> {
         let rings = self.profile()?;
         let points = path_points(path)?;
@@ -84,6 +84,9 @@ impl Shape {
         let whole = lengths[lengths.len() - 1];
         // Positions of the profile's corners at each point of the path.
         let mut sections: Vec<Vec<Vec<DVec3>>> = Vec::with_capacity(count);
+        // Movements of the profile to both ends, for its projections.
+        let mut moved = [DAffine3::IDENTITY; 2];
+        let level = self.mesh().points.first().map_or(0.0, |at| at.z);
         for (number, at) in points.iter().enumerate() {
             Stop::check_current()?;
             let before = if number > 0 { Some(number - 1) } else { path.closed.then(|| frames.len() - 1) };
@@ -98,6 +101,12 @@ impl Shape {
             let share = lengths[number] / whole;
             let (turn, scale) = ((path.twist + rest) * share, 1.0 + (path.scale - 1.0) * share);
             let right = frame.along.cross(frame.up);
+            let axes = [DVec2::X, DVec2::Y].map(|axis| {
+                let axis = DVec2::from_angle(turn).rotate(axis * scale);
+                right * axis.x + frame.up * axis.y
+            });
+            let axes = DMat3::from_cols(axes[0], axes[1], right.cross(frame.up));
+            moved[usize::from(number > 0)] = DAffine3::from_mat3_translation(axes, *at - axes.z_axis * level);
             let place = |corner: &DVec2| {
                 let corner = DVec2::from_angle(turn).rotate(*corner * scale);
                 let offset = right * corner.x + frame.up * corner.y;
@@ -109,6 +118,10 @@ impl Shape {
         let own = self.styles().into_iter().next().flatten();
         let style = |tag: &'static str| FaceStyle::with_automatic_tag(&own, tag);
         let [start, side, end] = ["sweep.start", "sweep.side", "sweep.end"].map(style);
+        let [start, end] = [(start, moved[0]), (end, moved[1])]
+            .map(|(style, frame)| FaceStyle::with_projections_moved(&style, &frame));
+        // A projection on the plane of the profile has no place on its way.
+        let side = FaceStyle::with_projections_of(&side, &None);
         let mut builder = PolygonMeshBuilder::default();
         if !path.closed {
             builder.face(sections[0].iter().map(Vec::as_slice), &start);

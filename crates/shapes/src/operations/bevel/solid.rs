@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::room::narrow_edges;
 use super::wedge::wedge;
-use crate::{EdgeKind, FaceStyle, Shape, SharedStyle, SolidOperation};
+use crate::{CombinedSolid, EdgeKind, FaceStyle, Shape, SharedStyle, SolidOperation};
 
 /// Largest number of edges of one call.
 const MOST_EDGES: usize = 20_000;
@@ -22,6 +22,8 @@ pub struct BeveledSolid {
     pub failed: usize,
     /// Number of edges with a face that is too narrow for the bevel, which meets another edge or its bevel.
     pub narrow: usize,
+    /// Greatest distance (m) by which what is cut off was moved, because the set operation fails numerically without it.
+    pub shift: f64,
 }
 
 impl Shape {
@@ -60,34 +62,52 @@ impl Shape {
             cut.push([edge.ends[0].min(edge.ends[1]), edge.ends[0].max(edge.ends[1])]);
         }
         let narrow = narrow_edges(&mesh, &normals, &cut, distance)?;
-        let mut solid = self.clone();
-        for group in separate_groups(&wedges)? {
-            Stop::check_current()?;
-            if let [_, _, ..] = group.as_slice()
-                && let Some(all) = Self::join(&group)?
-                && let Some(rest) = without(&solid, &all)?
-            {
-                solid = rest;
-                continue;
-            }
-            for wedge in group {
-                match without(&solid, wedge)? {
-                    Some(rest) => solid = rest,
-                    None => failed += 1,
-                }
-            }
-        }
+        let CutSolid { solid, failed: left, shift } =
+            cut_off(self, &wedges, |solid, wedge| solid.combine(wedge, SolidOperation::Difference))?;
+        failed += left;
         let style = |style: &SharedStyle| FaceStyle::without_tags(style, "bool");
-        Ok(BeveledSolid { solid: solid.with_styles(style).recompose()?, failed, narrow })
+        Ok(BeveledSolid { solid: solid.with_styles(style).recompose()?, failed, narrow, shift })
     }
 }
 
-/// Returns the rest of a solid; `None` if nothing remains or the operation fails.
-fn without(solid: &Shape, wedge: &Shape) -> Result<Option<Shape>> {
-    match solid.combine(wedge, SolidOperation::Difference) {
+/// A solid without what was cut off.
+struct CutSolid {
+    solid: Shape,
+    /// Number of wedges that could not be cut off.
+    failed: usize,
+    /// Greatest distance (m) by which a wedge was moved.
+    shift: f64,
+}
+
+/// Cuts wedges off a solid with the set operation `subtract`.
+fn cut_off(
+    solid: &Shape,
+    wedges: &[Shape],
+    subtract: impl Fn(&Shape, &Shape) -> Result<CombinedSolid>,
+) -> Result<CutSolid> {
+    // Nothing remains, or the operation fails.
+    let without = |solid: &Shape, wedge: &Shape| match subtract(solid, wedge) {
         Err(error) if *error.kind() == ErrorKind::Geometry => Ok(None),
-        other => other,
+        rest => rest.map(|rest| rest.solid.map(|solid| (solid, rest.shift))),
+    };
+    let mut cut = CutSolid { solid: solid.clone(), failed: 0, shift: 0.0 };
+    for group in separate_groups(wedges)? {
+        Stop::check_current()?;
+        if let [_, _, ..] = group.as_slice()
+            && let Some(all) = Shape::join_separate(&group)?
+            && let Some((rest, moved)) = without(&cut.solid, &all)?
+        {
+            (cut.solid, cut.shift) = (rest, cut.shift.max(moved));
+            continue;
+        }
+        for wedge in group {
+            match without(&cut.solid, wedge)? {
+                Some((rest, moved)) => (cut.solid, cut.shift) = (rest, cut.shift.max(moved)),
+                None => cut.failed += 1,
+            }
+        }
     }
+    Ok(cut)
 }
 
 /// Divides shapes into groups whose boxes are apart from each other; a shape is in the first group with room for it.
@@ -119,6 +139,27 @@ mod tests {
         let volume = cut.solid.volume();
         assert!((volume - (60.0 - 4.0 * 0.125 * 5.0)).abs() < 1e-6, "{volume}");
         assert!(cut.solid.is_closed() && cut.solid.body.faces() == 10, "{}", cut.solid.body.faces());
+    }
+
+    #[test]
+    fn the_greatest_shift_and_the_failures_of_all_wedges_are_known() {
+        let block = Shape::cuboid(DVec3::splat(2.0));
+        // Wedges that overlap are cut off one after the other.
+        let wedges: Vec<Shape> = [-0.9, -0.8, -0.7, -0.6]
+            .map(|x| Shape::cuboid(DVec3::splat(1.0)).translate(DVec3::new(x, -0.5, -0.5)))
+            .to_vec();
+        let number = std::cell::Cell::new(0);
+        let cut = cut_off(&block, &wedges, |solid, wedge| {
+            number.set(number.get() + 1);
+            if number.get() == 3 {
+                return Err(Error::geometry("it fails"));
+            }
+            let rest = solid.combine(wedge, SolidOperation::Difference)?;
+            Ok(CombinedSolid { shift: [0.0, 2e-6, 9e-6, 1e-6][number.get() - 1], ..rest })
+        })
+        .expect("a solid");
+        assert_eq!((cut.failed, cut.shift), (1, 2e-6));
+        assert!((cut.solid.volume() - (8.0 - 0.4 * 0.25)).abs() < 1e-9, "{}", cut.solid.volume());
     }
 
     #[test]
