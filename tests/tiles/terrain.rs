@@ -170,6 +170,31 @@ fn covered(color: &str) -> String {
 }
 
 #[test]
+fn a_terrain_without_covers_and_water_is_named_as_the_reason_of_one_colour() {
+    let city = City::new(60);
+    write_heights(&city, 0.0);
+    let one = covered("#407030");
+    let (before, rest) = one.split_once("  covers").unwrap();
+    let (_, after) = rest.split_once("}) })").unwrap();
+    let plain = format!("{before}  color = \"#407030\" }}) }}){after}");
+    std::fs::write(city.path("city.lua"), &plain).unwrap();
+    let said = |planned: Value| planned["warnings"].to_string();
+    let one_color = "terrain tiles have one colour, because";
+    let text = said(plan(&city, "out"));
+    assert!(
+        text.contains(&format!("{one_color} the terrain of the script has no covers and no water")),
+        "{text}"
+    );
+    city.json(&["make", "out"]);
+    assert!(images(&city, "out").is_empty());
+    let two =
+        plain.replace("local houses", "lsystem({ object = terrain({ levels = 2 }) }):derive()\nlocal houses");
+    std::fs::write(city.path("city.lua"), two).unwrap();
+    let text = said(plan(&city, "two"));
+    assert!(text.contains(&format!("{one_color} none of the 2 terrains of the script has covers")), "{text}");
+}
+
+#[test]
 fn terrain_has_the_colours_of_the_covers_of_the_script_in_any_share() {
     let city = City::new(60);
     write_heights(&city, 0.0);

@@ -82,18 +82,29 @@ impl<'a> TileBuilder<'a> {
         };
         let scenes: Vec<Scene> = self.plan.lods.iter().map(scene).collect::<Result<_>>()?;
         let coarse: Vec<FeatureDrawings<'_>> = scenes.iter().map(FeatureDrawings::new).collect();
+        FeatureDrawings::new(fine).errors(
+            &coarse,
+            &self.proceed(
+                stop,
+                "measuring the levels of detail",
+                "plan smaller tiles, --target-features, or ",
+            ),
+        )
+    }
+
+    /// Returns a function that fails as soon as `stop` is requested, or `work` beside a run exceeds the time limit of a run. `remedy`
+    /// precedes that of a higher limit.
+    pub(super) fn proceed(&self, stop: &Stop, work: &str, remedy: &str) -> impl Fn() -> Result<()> + Sync {
         let (begin, limit) = (Instant::now(), self.options.limits.time);
-        let proceed = || {
+        move || {
             stop.check()?;
             if begin.elapsed() < limit {
                 return Ok(());
             }
-            let seconds = limit.as_secs_f64();
-            let message = format!("measuring the levels of detail exceeded the time limit of {seconds} s");
+            let message = format!("{work} exceeded the time limit of {} s", limit.as_secs_f64());
             Err(Error::limit(Limit::Time, message)
-                .help("plan smaller tiles, --target-features, or raise the limit: --time-limit SECONDS"))
-        };
-        FeatureDrawings::new(fine).errors(&coarse, &proceed)
+                .help(format!("{remedy}raise the limit: --time-limit SECONDS")))
+        }
     }
 
     /// Returns the terrain of the script that gives terrain tiles their colours, if there is one.

@@ -123,7 +123,10 @@ impl MakeCommand {
                 (Some(terrain), true) => {
                     // A share without terrain tiles to be made does not read the heights.
                     match ground.get_or_insert_with(|| self.ground(&plan, &builder)) {
-                        Ok(ground) => ground.heights.build(terrain, tile, plan.model, ground.colors()),
+                        Ok(ground) => {
+                            let proceed = builder.proceed(&stop, "making a terrain tile", "");
+                            ground.heights.build(terrain, tile, plan.model, ground.colors(), &proceed)
+                        }
                         Err(error) => BuiltTile::failed(error.clone()),
                     }
                 }

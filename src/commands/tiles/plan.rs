@@ -25,6 +25,7 @@ use serde_json::json;
 use super::super::report;
 use super::super::shared::ScriptFlags;
 use super::build::TileBuilder;
+use super::ground::ScriptGround;
 use super::inputs::{hash_file, portable_path, tile_folder};
 
 /// Divides the features of a script among tiles, and writes the plan
@@ -314,21 +315,25 @@ impl PlanCommand {
             return Ok(());
         }
         let ground = TileBuilder::new(plan, &self.script.script, self.script.options()?)?.ground();
-        match ground.as_ref().map(|ground| ground.as_ref().map(|ground| ground.choices)) {
+        let one_color = |why: &str| Some(format!("terrain tiles have one colour, because {why}"));
+        plan.notes.extend(match &ground {
             // The tiles whose features the script cannot make name the error, too.
-            Err(error) => plan.notes.push(format!(
-                "terrain tiles have one colour, because the script fails with the features of the first tile: {}",
+            Err(error) => one_color(&format!(
+                "the script fails with the features of the first tile: {}",
                 error.message()
             )),
-            Ok(None) => plan.notes.push(
-                "terrain tiles have one colour: they take the covers of a terrain of the script, such as terrain({ covers = ..., visible = false }), and it has none"
-                    .to_owned(),
-            ),
-            Ok(Some(choices)) if choices > 1 => plan.notes.push(format!(
+            Ok(None) => one_color("the script has no terrain with covers or water, such as terrain({ covers = ..., visible = false })"),
+            Ok(Some(ScriptGround { choices: 0, terrains: 1, .. })) => {
+                one_color("the terrain of the script has no covers and no water; they take its color")
+            }
+            Ok(Some(ScriptGround { choices: 0, terrains, .. })) => one_color(&format!(
+                "none of the {terrains} terrains of the script has covers or water; they take the color of the first"
+            )),
+            Ok(Some(ScriptGround { choices: 1, .. })) => None,
+            Ok(Some(ScriptGround { choices, .. })) => Some(format!(
                 "terrain tiles have the colours of the first of the {choices} terrains with covers or water in the script"
             )),
-            Ok(Some(_)) => {}
-        }
+        });
         if let Some(terrain) = &mut plan.terrain {
             terrain.is_colored = matches!(ground, Ok(Some(_)));
         }
