@@ -1,8 +1,9 @@
 //! Runs of a script for single tiles.
 
+use std::cell::Cell;
 use std::path::Path;
 use std::sync::Arc;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use burgeon::error::Limit;
 use burgeon::scene::Scene;
@@ -27,13 +28,19 @@ pub(super) struct TileBuilder<'a> {
     options: RunOptions,
     sources: DataSources,
     script: &'a Path,
+    /// Set if the top level of the script took long in the last run, so that native code pays from the start.
+    is_slow: Cell<bool>,
 }
+
+/// Times of the top level of a script with and without native code, above which it is slow.
+const SLOW: [Duration; 2] = [Duration::from_millis(30), Duration::from_millis(60)];
 
 impl<'a> TileBuilder<'a> {
     pub(super) fn new(plan: &'a TilePlan, script: &'a Path, mut options: RunOptions) -> Result<Self> {
         options.reports.records = true;
         options.limits.whole_program = true;
-        Ok(Self { plan, frame: plan.frame.reference()?, options, sources: DataSources::cached(), script })
+        let (frame, sources) = (plan.frame.reference()?, DataSources::cached());
+        Ok(Self { plan, frame, options, sources, script, is_slow: Cell::new(false) })
     }
 
     /// Builds a tile. One of the features also has the errors of the coarser levels of detail, unless `stop` is requested or measuring
@@ -136,6 +143,7 @@ impl<'a> TileBuilder<'a> {
     fn run(&self, tile: &PlannedTile, window: &Arc<SourceWindow>, lod: u8) -> Result<(Arc<Session>, Run)> {
         let mut options = self.options.clone();
         options.lod = lod;
+        options.waits_with_native = !self.is_slow.get();
         options.registry.set_sources(Arc::new(self.sources.windowed(window)));
         let cell = Some(TileGrid::bounds(tile.id));
         options.part = Some(FeaturePart { number: 1, count: 1, reach: self.plan.reach, cell });
@@ -144,8 +152,10 @@ impl<'a> TileBuilder<'a> {
             least: rule.least,
             is_reached,
         });
+        let waits = options.waits_with_native;
         let session = Session::new(self.script, options)?;
         let mut run = burgeon::run_session(&session)?;
+        self.is_slow.set(run.times.script > SLOW[usize::from(waits)]);
         run.note_packages(&session)?;
         Ok((session, run))
     }
