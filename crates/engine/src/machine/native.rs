@@ -8,8 +8,8 @@ use std::time::{Duration, Instant};
 
 use mlua::{Function, Lua};
 
-/// Time for which a machine that waits runs bytecode, about as long as compiling the native code of a short script takes.
-const WAIT: Duration = Duration::from_millis(8);
+/// Time for which a machine that waits runs bytecode. Compiling takes about 5 ms, and most of the time of a tile is spent outside Lua.
+const WAIT: Duration = Duration::from_millis(50);
 
 /// Functions that become native code as soon as the machine has worked for [`WAIT`], so that a short run compiles none.
 #[derive(Default)]
