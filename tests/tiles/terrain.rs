@@ -92,6 +92,10 @@ fn other_heights_remake_the_terrain_and_no_features() {
     let text = std::fs::read_to_string(&path).unwrap();
     std::fs::write(&path, text.replace("REPLACE", "ADD")).unwrap();
     assert!(city.fails(&["check", "out"], 1).contains("is shown together with finer terrain"));
+    // The coordinate system of the heights can be a file of its own.
+    std::fs::write(city.path("hills.prj"), "none").unwrap();
+    assert!(city.fails(&["make", "out"], 1).contains("hills.asc has changed"));
+    std::fs::remove_file(city.path("hills.prj")).unwrap();
     // Without a terrain, its tileset is removed.
     city.json(&[
         "plan",

@@ -56,6 +56,7 @@ impl<'a> TileBuilder<'a> {
         let features = tile_features(self.plan, tile, &layers);
         // Changed data explain an error of the script better than the error.
         let verified = if all { verify_features(self.plan, tile, &layers) } else { Ok(()) };
+        let is_of_plan = all && verified.is_ok();
         let content = verified.and(run).and_then(|(session, run)| self.content(&session, run));
         let content = content.map(|content| {
             let detail = self.options.lod;
@@ -69,7 +70,7 @@ impl<'a> TileBuilder<'a> {
             }
             Some(_) => Ok(content),
         });
-        BuiltTile { features, content }
+        BuiltTile { features, content, is_of_plan }
     }
 
     /// Returns the features of a tile in a level of detail.

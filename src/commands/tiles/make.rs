@@ -212,7 +212,7 @@ impl MakeCommand {
         match failed.first() {
             None => Ok(()),
             Some(first) => Err(Error::data(format!("{} tiles failed, such as {first}", failed.len()))
-                .help("burgeon tiles join FOLDER lists the missing features with their causes")),
+                .help("burgeon tiles join FOLDER lists the missing features with their causes; once a cause is removed, make the tiles again: --retry-failed")),
         }
     }
 }

@@ -66,7 +66,7 @@ impl TerrainHeights {
         proceed: &(impl Fn() -> Result<()> + Sync),
     ) -> BuiltTile {
         let content = self.content(terrain, tile, model, colors, proceed);
-        BuiltTile { features: Vec::new(), content }
+        BuiltTile { features: Vec::new(), content, is_of_plan: true }
     }
 
     /// Builds the content of a tile.
