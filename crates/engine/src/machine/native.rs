@@ -103,3 +103,26 @@ pub(crate) fn native(lua: &Lua, function: &Function) -> mlua::Result<()> {
 pub(crate) fn native(_: &Lua, _: &Function) -> mlua::Result<()> {
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_machine_that_waits_compiles_its_functions_after_some_work() {
+        let lua = Lua::new();
+        wait_with_native(&lua);
+        let function: Function = lua.load("return function(a) return a + 1 end").eval().unwrap();
+        native(&lua, &function).unwrap();
+        let waiting = || lua.app_data_ref::<WaitingFunctions>().map(|known| known.functions.borrow().len());
+        // Without native code for this processor, no function has to wait.
+        let kept = usize::from(cfg!(feature = "jit"));
+        assert_eq!(waiting(), Some(kept));
+        end_wait_if_due(&lua);
+        assert_eq!(waiting(), Some(kept));
+        std::thread::sleep(WAIT * 2);
+        end_wait_if_due(&lua);
+        assert_eq!(waiting(), None);
+        assert_eq!(function.call::<i64>(4).unwrap(), 5);
+    }
+}
