@@ -226,6 +226,10 @@ impl PlanCommand {
         }
         files.sort_by(|a, b| a.path.cmp(&b.path));
         files.dedup();
+        // Another spelling of a file that exists is this file on some systems.
+        let there: BTreeSet<String> =
+            files.iter().filter(|file| !file.hash.is_empty()).map(|file| file.path.to_lowercase()).collect();
+        files.retain(|file| !file.hash.is_empty() || !there.contains(&file.path.to_lowercase()));
         let packages = session.lock()?;
         let packages = packages.iter().map(|it| format!("{} {} {}", it.name, it.version, it.hash)).collect();
         let mut plan = TilePlan {
