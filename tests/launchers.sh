@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Makes the tiles of a village with each launcher of examples/tiles on two workers, and compares their bytes with those of one
 # process: tests/launchers.sh PROGRAM FOLDER. Installs the tools into FOLDER, and skips one, with the reason, only if it cannot be
-# installed.
+# installed. Slurm and Kubernetes need a cluster: tests/launchers runs their jobs without one.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -64,19 +64,31 @@ python3 -m venv "$folder/python" >"$folder/venv.txt" 2>&1 || {
   apt-get update -q && DEBIAN_FRONTEND=noninteractive apt-get install -y -q python3-venv &&
     python3 -m venv --clear "$folder/python"
 } >>"$folder/venv.txt" 2>&1 || true
-# Runs a launcher in Python: its name, and the packages that it needs.
+# Runs a launcher that needs a package of Python: its name, the package, and the launcher.
 python() {
-  local name=$1 pip=$folder/python/bin/pip
-  shift
-  if "$pip" install --quiet --disable-pip-version-check "$@" >"$folder/pip-$name.txt" 2>&1; then
-    compare "$name" "$folder/python/bin/python" "$launchers/${name}_tiles.py" "$script" "$data" "$folder/$name" 2 \
-      "${options[@]}"
+  local name=$1 package=$2
+  shift 2
+  if "$folder/python/bin/pip" install --quiet --disable-pip-version-check "$package" >"$folder/pip-$name.txt" 2>&1; then
+    compare "$name" "$@"
   else
     skip "$name" "it cannot be installed: $(tail -n 1 "$folder/pip-$name.txt")"
   fi
 }
-python dask "distributed==2026.8.0"
-RAY_USAGE_STATS_ENABLED=0 python ray "ray==2.60.0"
+# Runs a script in Python: its name, the package, and the script with the arguments before those of all launchers.
+python_script() {
+  local name=$1 package=$2
+  shift 2
+  python "$name" "$package" "$folder/python/bin/python" "$@" "$script" "$data" "$folder/$name" 2 "${options[@]}"
+}
+snakemake() {
+  "$folder/python/bin/snakemake" --cores 2 --snakefile "$launchers/Snakefile" --directory "$folder" \
+    --config script="$script" data="$data" folder="$folder/snakemake" shares=8 options="${options[*]}"
+}
+python_script dask "distributed==2026.8.0" "$launchers/dask_tiles.py"
+RAY_USAGE_STATS_ENABLED=0 python_script ray "ray==2.60.0" "$launchers/ray_tiles.py"
+python snakemake "snakemake==9.27.1" snakemake
+python_script kubernetes "kubernetes==37.0.2" "$PWD/tests/launchers/kubernetes_job.py" "$launchers/kubernetes.yaml"
+compare slurm tests/launchers/slurm_array.sh "$launchers/slurm.sh" "$script" "$data" "$folder/slurm" 8 "${options[@]}"
 
 echo "$passed passed, $failed failed, $skipped skipped"
 [ "$failed" -eq 0 ]

@@ -15,7 +15,59 @@ fn features_without_geometry_are_listed_with_their_cause() {
     city.json(&["make", "out"]);
     assert_eq!(city.json(&["join", "out"])["missing"], 2);
     let csv = std::fs::read_to_string(city.path("out/missing.csv")).unwrap();
-    assert!(csv.contains("8,1,,the feature has no geometry") && csv.contains("32,1,"), "{csv}");
+    assert!(csv.contains("buildings,8,1,,\"the feature has no geometry") && csv.contains("32,1,"), "{csv}");
+    // Files of other formats, too.
+    write_geojson(&city.path("city.geojson"), &buildings);
+    let city = city.script("\"city.geojson\", { crs = 2154 }", "");
+    let planned = city.plan("json");
+    assert_eq!((&planned["features"], &planned["left_out"]), (&58.into(), &2.into()));
+    city.json(&["make", "json"]);
+    city.json(&["join", "json"]);
+    let csv = std::fs::read_to_string(city.path("json/missing.csv")).unwrap();
+    assert!(csv.contains("city,8,1,,\"the feature has no geometry") && csv.contains("city,32,1,"), "{csv}");
+}
+
+#[test]
+fn tiles_that_failed_without_the_data_of_the_plan_are_made_once_the_data_are_back() {
+    let city = City::new(1);
+    let buildings = self::city(60, [652_000.0, 6_862_000.0]);
+    let path = city.path("city.geojson");
+    write_geojson(&path, &buildings);
+    let city = city.script("\"city.geojson\", { crs = 2154 }", "");
+    let tiles = city.plan("out")["tiles"].clone();
+    let text = std::fs::read(&path).unwrap();
+    std::fs::write(&path, &text[..text.len() / 2]).unwrap();
+    assert!(city.fails(&["make", "out"], 1).contains("is not GeoJSON"));
+    std::fs::remove_file(&path).unwrap();
+    let absent = city.fails(&["make", "out"], 1);
+    assert!(absent.contains("data file not found") && absent.contains("--retry-failed"), "{absent}");
+    std::fs::write(&path, text).unwrap();
+    assert_eq!(city.json(&["make", "out"])["made"], tiles);
+    city.json(&["join", "out"]);
+    assert_eq!(city.json(&["check", "out"])["features"], 60);
+}
+
+#[test]
+fn a_file_that_is_added_or_lost_after_the_plan_is_named() {
+    let city = City::new(30);
+    write_geojson(&city.path("city.geojson"), &self::city(30, [652_000.0, 6_862_000.0]));
+    let city = city.script("\"city.geojson\", { crs = 2154 }", "");
+    let script = std::fs::read_to_string(city.path("city.lua")).unwrap();
+    let script = format!("pcall(require, \"extra\")\nlocal shared = require(\"shared\")\n{script}");
+    std::fs::write(city.path("city.lua"), script).unwrap();
+    let shared = city.path("shared.lua");
+    std::fs::write(&shared, "return 1").unwrap();
+    city.plan("out");
+    std::fs::write(city.path("extra.lua"), "return 1").unwrap();
+    let text = city.fails(&["make", "out"], 1);
+    assert!(text.contains("../extra.lua was not there when the plan was made"), "{text}");
+    std::fs::remove_file(city.path("extra.lua")).unwrap();
+    std::fs::remove_file(&shared).unwrap();
+    // A folder may come back.
+    let text = city.fails(&["make", "out"], 75);
+    assert!(text.contains("../shared.lua is missing, which the plan needs"), "{text}");
+    std::fs::write(&shared, "return 1").unwrap();
+    city.json(&["make", "out"]);
 }
 
 #[test]

@@ -61,7 +61,10 @@ fn a_missing_grid_and_one_that_does_not_cover_the_data_are_errors() {
     let grid = std::fs::read_to_string(city.path("geoid.asc")).unwrap();
     std::fs::write(city.path("geoid.asc"), grid.replace("xllcenter 2", "xllcenter 7")).unwrap();
     let text = city.fails(&with("geoid.asc"), 1);
-    assert!(text.contains("geoid.asc does not cover 2.3") && text.contains("--geoid-height"), "{text}");
+    assert!(
+        text.contains("geoid.asc does not cover longitude 2.3") && text.contains("--geoid-height"),
+        "{text}"
+    );
     assert!(!city.path("out/plan.json").exists());
     city.fails(&[&with("geoid.asc")[..], &["--geoid-height", "44"]].concat(), 2);
 }

@@ -92,6 +92,10 @@ fn other_heights_remake_the_terrain_and_no_features() {
     let text = std::fs::read_to_string(&path).unwrap();
     std::fs::write(&path, text.replace("REPLACE", "ADD")).unwrap();
     assert!(city.fails(&["check", "out"], 1).contains("is shown together with finer terrain"));
+    // The coordinate system of the heights can be a file of its own.
+    std::fs::write(city.path("hills.prj"), "none").unwrap();
+    assert!(city.fails(&["make", "out"], 1).contains("hills.asc has changed"));
+    std::fs::remove_file(city.path("hills.prj")).unwrap();
     // Without a terrain, its tileset is removed.
     city.json(&[
         "plan",
@@ -167,6 +171,32 @@ fn covered(color: &str) -> String {
          houses:axiom(source(\"city.gpkg:buildings\"), function(feature) return footprint(feature.geometry), Walls() end)\n\
          houses:interpret(\"Walls\", function(this) this:walls({{ height = 5 }}) end)\nhouses:derive(0)\n"
     )
+}
+
+#[test]
+fn a_terrain_without_covers_and_water_is_named_as_the_reason_of_one_colour() {
+    let city = City::new(60);
+    write_heights(&city, 0.0);
+    let one = covered("#407030");
+    let (before, rest) = one.split_once("  covers").unwrap();
+    let (_, after) = rest.split_once("}) })").unwrap();
+    let plain = format!("{before}  color = \"#407030\" }}) }}){after}");
+    std::fs::write(city.path("city.lua"), &plain).unwrap();
+    let said = |planned: Value| planned["warnings"].to_string();
+    let one_color = "terrain tiles have one colour, because";
+    let text = said(plan(&city, "out"));
+    assert!(
+        text.contains(&format!("{one_color} the terrain of the script has no covers and no water")),
+        "{text}"
+    );
+    city.json(&["make", "out"]);
+    assert!(images(&city, "out").is_empty());
+    // The terrain a second time: the lines between the module and the houses.
+    let again = plain.split_once('\n').and_then(|(_, rest)| rest.split_once("local houses")).unwrap().0;
+    let two = plain.replace("local houses", &format!("{again}local houses"));
+    std::fs::write(city.path("city.lua"), two).unwrap();
+    let text = said(plan(&city, "two"));
+    assert!(text.contains(&format!("{one_color} none of the 2 terrains of the script has covers")), "{text}");
 }
 
 #[test]

@@ -14,7 +14,7 @@ mod listing;
 pub mod sql;
 mod store;
 
-pub use burgeon_data::{Layer, Listing};
+pub use burgeon_data::{Layer, Listing, companions};
 pub use burgeon_spatial::ReferenceFrame;
 pub use listing::{list_content, read_height_shape};
 pub use store::{DataSources, SourceSurvey, SourceWindow, SurveyedSource, WindowBox};

@@ -1,8 +1,9 @@
 //! Runs of a script for single tiles.
 
+use std::cell::Cell;
 use std::path::Path;
 use std::sync::Arc;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use burgeon::error::Limit;
 use burgeon::scene::Scene;
@@ -27,13 +28,19 @@ pub(super) struct TileBuilder<'a> {
     options: RunOptions,
     sources: DataSources,
     script: &'a Path,
+    /// Set if the top level of the script took long in the last run, so that native code pays from the start.
+    is_slow: Cell<bool>,
 }
+
+/// Times of the top level of a script with and without native code, above which it is slow.
+const SLOW: [Duration; 2] = [Duration::from_millis(30), Duration::from_millis(60)];
 
 impl<'a> TileBuilder<'a> {
     pub(super) fn new(plan: &'a TilePlan, script: &'a Path, mut options: RunOptions) -> Result<Self> {
         options.reports.records = true;
         options.limits.whole_program = true;
-        Ok(Self { plan, frame: plan.frame.reference()?, options, sources: DataSources::cached(), script })
+        let (frame, sources) = (plan.frame.reference()?, DataSources::cached());
+        Ok(Self { plan, frame, options, sources, script, is_slow: Cell::new(false) })
     }
 
     /// Builds a tile. One of the features also has the errors of the coarser levels of detail, unless `stop` is requested or measuring
@@ -49,6 +56,7 @@ impl<'a> TileBuilder<'a> {
         let features = tile_features(self.plan, tile, &layers);
         // Changed data explain an error of the script better than the error.
         let verified = if all { verify_features(self.plan, tile, &layers) } else { Ok(()) };
+        let is_of_plan = all && verified.is_ok();
         let content = verified.and(run).and_then(|(session, run)| self.content(&session, run));
         let content = content.map(|content| {
             let detail = self.options.lod;
@@ -62,7 +70,7 @@ impl<'a> TileBuilder<'a> {
             }
             Some(_) => Ok(content),
         });
-        BuiltTile { features, content }
+        BuiltTile { features, content, is_of_plan }
     }
 
     /// Returns the features of a tile in a level of detail.
@@ -82,18 +90,29 @@ impl<'a> TileBuilder<'a> {
         };
         let scenes: Vec<Scene> = self.plan.lods.iter().map(scene).collect::<Result<_>>()?;
         let coarse: Vec<FeatureDrawings<'_>> = scenes.iter().map(FeatureDrawings::new).collect();
+        FeatureDrawings::new(fine).errors(
+            &coarse,
+            &self.proceed(
+                stop,
+                "measuring the levels of detail",
+                "plan smaller tiles, --target-features, or ",
+            ),
+        )
+    }
+
+    /// Returns a function that fails as soon as `stop` is requested, or `work` beside a run exceeds the time limit of a run. `remedy`
+    /// precedes that of a higher limit.
+    pub(super) fn proceed(&self, stop: &Stop, work: &str, remedy: &str) -> impl Fn() -> Result<()> + Sync {
         let (begin, limit) = (Instant::now(), self.options.limits.time);
-        let proceed = || {
+        move || {
             stop.check()?;
             if begin.elapsed() < limit {
                 return Ok(());
             }
-            let seconds = limit.as_secs_f64();
-            let message = format!("measuring the levels of detail exceeded the time limit of {seconds} s");
+            let message = format!("{work} exceeded the time limit of {} s", limit.as_secs_f64());
             Err(Error::limit(Limit::Time, message)
-                .help("plan smaller tiles, --target-features, or raise the limit: --time-limit SECONDS"))
-        };
-        FeatureDrawings::new(fine).errors(&coarse, &proceed)
+                .help(format!("{remedy}raise the limit: --time-limit SECONDS")))
+        }
     }
 
     /// Returns the terrain of the script that gives terrain tiles their colours, if there is one.
@@ -125,6 +144,7 @@ impl<'a> TileBuilder<'a> {
     fn run(&self, tile: &PlannedTile, window: &Arc<SourceWindow>, lod: u8) -> Result<(Arc<Session>, Run)> {
         let mut options = self.options.clone();
         options.lod = lod;
+        options.waits_with_native = !self.is_slow.get();
         options.registry.set_sources(Arc::new(self.sources.windowed(window)));
         let cell = Some(TileGrid::bounds(tile.id));
         options.part = Some(FeaturePart { number: 1, count: 1, reach: self.plan.reach, cell });
@@ -133,8 +153,10 @@ impl<'a> TileBuilder<'a> {
             least: rule.least,
             is_reached,
         });
+        let waits = options.waits_with_native;
         let session = Session::new(self.script, options)?;
         let mut run = burgeon::run_session(&session)?;
+        self.is_slow.set(run.times.script > SLOW[usize::from(waits)]);
         run.note_packages(&session)?;
         Ok((session, run))
     }

@@ -28,7 +28,7 @@ impl CheckTilesCommand {
         if !checked.problems.is_empty() {
             let problems = checked.problems.iter().map(|problem| {
                 Error::data(problem)
-                    .help("make the tile again, and join again; if that does not help, report a bug")
+                    .help("join again; if a file of tiles is named, remove it and make the tiles first; if that does not help, report a bug")
             });
             return Err(Error::several(problems.collect()));
         }

@@ -13,6 +13,8 @@ pub(super) struct ScriptGround {
     systems: Vec<Arc<DerivedSystem>>,
     /// Number of the terrain among those of all systems.
     number: usize,
+    /// Number of the terrains.
+    pub(super) terrains: usize,
     /// Number of the terrains with more than one colour.
     pub(super) choices: usize,
 }
@@ -31,7 +33,8 @@ impl ScriptGround {
             terrains(&systems).map(|terrain| terrain.plain_color().is_none()).collect();
         let number = is_varied.iter().position(|is_varied| *is_varied).unwrap_or(0);
         let choices = is_varied.iter().filter(|is_varied| **is_varied).count();
-        (!is_varied.is_empty()).then_some(Self { systems, number, choices })
+        let terrains = is_varied.len();
+        (terrains > 0).then_some(Self { systems, number, terrains, choices })
     }
 
     fn terrain(&self) -> Option<&Terrain> {

@@ -42,12 +42,41 @@ pub(super) fn portable_path(base: &Path, path: &Path) -> Result<String> {
     Ok(if parts.is_empty() { ".".to_owned() } else { parts.join("/") })
 }
 
-/// Returns the hash of a file.
+/// Returns the path of a file that does not exist as [`portable_path`] does; `None` unless it is in one of `folders`, which are
+/// canonical.
+pub(super) fn portable_absent_path(base: &Path, path: &Path, folders: &[PathBuf]) -> Result<Option<String>> {
+    let absolute = std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
+    for ancestor in absolute.ancestors().skip(1) {
+        let Ok(there) = ancestor.canonicalize() else { continue };
+        if !folders.iter().any(|folder| there.starts_with(folder)) {
+            return Ok(None);
+        }
+        let Ok(rest) = absolute.strip_prefix(ancestor) else { return Ok(None) };
+        let rest = rest.components().map(|part| part.as_os_str().to_string_lossy());
+        return Ok(Some(format!("{}/{}", portable_path(base, &there)?, rest.collect::<Vec<_>>().join("/"))));
+    }
+    Ok(None)
+}
+
+/// Returns the hash of a file and of the files that are read with it, such as that of its coordinate system.
 pub(super) fn hash_file(path: &Path) -> Result<String> {
-    let unreadable = |error: std::io::Error| {
-        Error::file(path, format!("cannot read {}: {error}", path.display())).help("check its permissions")
+    let hash = |path: &Path| {
+        burgeon::tiles::plan::hash_file(path).map_err(|error: std::io::Error| {
+            Error::file(path, format!("cannot read {}: {error}", path.display()))
+                .help("check its permissions")
+        })
     };
-    burgeon::tiles::plan::hash_file(path).map_err(unreadable)
+    let mut hashes = vec![hash(path)?];
+    let mut known = Vec::new();
+    for companion in burgeon::sources::companions(path) {
+        let kind = companion.extension().unwrap_or_default().to_ascii_lowercase();
+        // The spellings of an extension are one file on some systems.
+        if companion.is_file() && !known.contains(&kind) {
+            known.push(kind);
+            hashes.push(hash(&companion)?);
+        }
+    }
+    Ok(hashes.join("+"))
 }
 
 /// Returns the script flags of a plan in `folder`.
@@ -91,7 +120,20 @@ pub(super) fn verify_files(folder: &Path, plan: &TilePlan) -> Result<()> {
     }
     let terrain = plan.terrain.iter().map(|terrain| &terrain.file);
     for PlannedFile { path, hash } in plan.files.iter().chain(terrain) {
-        if hash_file(&local_path(folder, Path::new(path)))? != *hash {
+        let local = local_path(folder, Path::new(path));
+        match (local.exists(), hash.is_empty()) {
+            (false, true) => continue,
+            (true, true) => {
+                return Err(Error::data(format!("{path} was not there when the plan was made"))
+                    .help("remove it, or plan again: burgeon tiles plan SCRIPT -o FOLDER"));
+            }
+            (false, false) => {
+                return Err(Error::file(&local, format!("{path} is missing, which the plan needs"))
+                    .help("restore it, or mount its folder; the path begins in the folder of the plan"));
+            }
+            (true, false) => {}
+        }
+        if hash_file(&local)? != *hash {
             return Err(Error::data(format!("{path} has changed since the plan was made"))
                 .help("plan again: burgeon tiles plan SCRIPT -o FOLDER; tiles that do not change are kept"));
         }
@@ -116,5 +158,10 @@ mod tests {
             data.canonicalize().unwrap()
         );
         assert!(portable_path(&out, Path::new("missing")).is_err());
+        let root = [folder.path().canonicalize().unwrap()];
+        let absent = |path: &str| portable_absent_path(&out, &folder.path().join(path), &root).unwrap();
+        assert_eq!(absent("a/data/none.lua").as_deref(), Some("../data/none.lua"));
+        assert_eq!(absent("a/none/b/c.lua").as_deref(), Some("../none/b/c.lua"));
+        assert_eq!(portable_absent_path(&out, Path::new("/none/x.lua"), &root).unwrap(), None);
     }
 }

@@ -123,7 +123,10 @@ impl MakeCommand {
                 (Some(terrain), true) => {
                     // A share without terrain tiles to be made does not read the heights.
                     match ground.get_or_insert_with(|| self.ground(&plan, &builder)) {
-                        Ok(ground) => ground.heights.build(terrain, tile, plan.model, ground.colors()),
+                        Ok(ground) => {
+                            let proceed = builder.proceed(&stop, "making a terrain tile", "");
+                            ground.heights.build(terrain, tile, plan.model, ground.colors(), &proceed)
+                        }
                         Err(error) => BuiltTile::failed(error.clone()),
                     }
                 }
@@ -209,7 +212,7 @@ impl MakeCommand {
         match failed.first() {
             None => Ok(()),
             Some(first) => Err(Error::data(format!("{} tiles failed, such as {first}", failed.len()))
-                .help("burgeon tiles join FOLDER lists the missing features with their causes")),
+                .help("burgeon tiles join FOLDER lists the missing features with their causes; once a cause is removed, make the tiles again: --retry-failed")),
         }
     }
 }

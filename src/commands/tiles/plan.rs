@@ -25,7 +25,8 @@ use serde_json::json;
 use super::super::report;
 use super::super::shared::ScriptFlags;
 use super::build::TileBuilder;
-use super::inputs::{hash_file, portable_path, tile_folder};
+use super::ground::ScriptGround;
+use super::inputs::{hash_file, portable_absent_path, portable_path, tile_folder};
 
 /// Divides the features of a script among tiles, and writes the plan
 #[derive(Args)]
@@ -210,15 +211,25 @@ impl PlanCommand {
         }
         self.check_tall(&planned)?;
         let portable = |path: &Path| portable_path(folder, path);
-        let read = session.sought().into_iter().filter(|(path, there)| *there && path.is_file());
+        let data = self.script.data_folders().iter().map(PathBuf::as_path);
+        let roots = std::iter::once(session.root()).chain(data);
+        let roots: Vec<PathBuf> = roots.filter_map(|folder| folder.canonicalize().ok()).collect();
         let mut files = Vec::new();
-        for (path, _) in read {
-            if !path.canonicalize().is_ok_and(|path| own.contains(&path)) {
+        for (path, is_there) in session.sought() {
+            if !is_there {
+                // A file that is added later changes the result, too.
+                let absent = portable_absent_path(folder, &path, &roots)?;
+                files.extend(absent.map(|path| PlannedFile { path, hash: String::new() }));
+            } else if path.is_file() && !path.canonicalize().is_ok_and(|path| own.contains(&path)) {
                 files.push(PlannedFile { path: portable(&path)?, hash: hash_file(&path)? });
             }
         }
         files.sort_by(|a, b| a.path.cmp(&b.path));
         files.dedup();
+        // Another spelling of a file that exists is this file on some systems.
+        let there: BTreeSet<String> =
+            files.iter().filter(|file| !file.hash.is_empty()).map(|file| file.path.to_lowercase()).collect();
+        files.retain(|file| !file.hash.is_empty() || !there.contains(&file.path.to_lowercase()));
         let packages = session.lock()?;
         let packages = packages.iter().map(|it| format!("{} {} {}", it.name, it.version, it.hash)).collect();
         let mut plan = TilePlan {
@@ -314,21 +325,25 @@ impl PlanCommand {
             return Ok(());
         }
         let ground = TileBuilder::new(plan, &self.script.script, self.script.options()?)?.ground();
-        match ground.as_ref().map(|ground| ground.as_ref().map(|ground| ground.choices)) {
+        let one_color = |why: &str| Some(format!("terrain tiles have one colour, because {why}"));
+        plan.notes.extend(match &ground {
             // The tiles whose features the script cannot make name the error, too.
-            Err(error) => plan.notes.push(format!(
-                "terrain tiles have one colour, because the script fails with the features of the first tile: {}",
+            Err(error) => one_color(&format!(
+                "the script fails with the features of the first tile: {}",
                 error.message()
             )),
-            Ok(None) => plan.notes.push(
-                "terrain tiles have one colour: they take the covers of a terrain of the script, such as terrain({ covers = ..., visible = false }), and it has none"
-                    .to_owned(),
-            ),
-            Ok(Some(choices)) if choices > 1 => plan.notes.push(format!(
+            Ok(None) => one_color("the script has no terrain with covers or water, such as terrain({ covers = ..., visible = false })"),
+            Ok(Some(ScriptGround { choices: 0, terrains: 1, .. })) => {
+                one_color("the terrain of the script has no covers and no water; they take its color")
+            }
+            Ok(Some(ScriptGround { choices: 0, terrains, .. })) => one_color(&format!(
+                "none of the {terrains} terrains of the script has covers or water; they take the color of the first"
+            )),
+            Ok(Some(ScriptGround { choices: 1, .. })) => None,
+            Ok(Some(ScriptGround { choices, .. })) => Some(format!(
                 "terrain tiles have the colours of the first of the {choices} terrains with covers or water in the script"
             )),
-            Ok(Some(_)) => {}
-        }
+        });
         if let Some(terrain) = &mut plan.terrain {
             terrain.is_colored = matches!(ground, Ok(Some(_)));
         }

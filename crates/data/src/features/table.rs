@@ -168,11 +168,7 @@ impl FeatureTable {
     ) -> Result<()> {
         self.budget.tick()?;
         if parts.is_empty() {
-            let before = self.empty;
-            self.add_empty(&attributes, None);
-            if self.empty > before && self.empty_ids.len() < REMEMBERED_IDS {
-                self.empty_ids.push(id.to_owned());
-            }
+            self.add_empty_record(id, &attributes, None);
             return Ok(());
         }
         let several = parts.len() > 1;
@@ -239,6 +235,20 @@ impl FeatureTable {
         match own.map(|(_, value)| value.text()).filter(|id| !id.is_empty()) {
             Some(id) => self.push(&id, parts, attributes),
             None => self.push_unnamed(parts, attributes),
+        }
+    }
+
+    /// Counts a feature without a geometry, and remembers its id, like [`add_empty`](Self::add_empty).
+    pub(crate) fn add_empty_record(
+        &mut self,
+        id: &str,
+        attributes: &[(usize, Attribute)],
+        bounds: Option<[f64; 4]>,
+    ) {
+        let before = self.empty;
+        self.add_empty(attributes, bounds);
+        if self.empty > before && self.empty_ids.len() < REMEMBERED_IDS {
+            self.empty_ids.push(id.to_owned());
         }
     }
 

@@ -300,9 +300,10 @@ impl<'a> FeatureReader<'a> {
         bounds: Option<[f64; 4]>,
     ) -> Result<()> {
         match (parts, id) {
-            (Ok(parts), _) if parts.is_empty() => {
+            (Ok(parts), id) if parts.is_empty() => {
                 self.wanted.budget.tick()?;
-                self.table.add_empty(&attributes, bounds);
+                let id = id.unwrap_or_else(|| number.to_string());
+                self.table.add_empty_record(&id, &attributes, bounds);
                 Ok(())
             }
             (Ok(parts), Some(id)) => self.table.push(&id, parts, attributes),

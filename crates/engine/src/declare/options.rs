@@ -212,6 +212,9 @@ pub struct RunOptions {
     pub threads: Option<usize>,
     /// Number of modules that a worker takes at a time. It does not affect the result.
     pub batch: usize,
+    /// Set to run bytecode until a machine has worked on derivations for some milliseconds: for many runs that are shorter than the
+    /// compilation of native code. It does not affect the result.
+    pub waits_with_native: bool,
 }
 
 /// Number of threads that can run in parallel. The value is cached, because the system reads files to find
@@ -244,6 +247,7 @@ impl Default for RunOptions {
             strict: false,
             threads: None,
             batch: 4096,
+            waits_with_native: false,
         }
     }
 }

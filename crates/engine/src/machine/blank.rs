@@ -67,6 +67,21 @@ mod tests {
     use crate::declare::RunOptions;
 
     #[test]
+    fn a_machine_that_waits_with_native_code_makes_what_others_do() {
+        let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scripts/herb.lua");
+        let made = |waits_with_native: bool| -> Vec<String> {
+            let registry = burgeon_objects::registry();
+            let run =
+                crate::run::run(&script, RunOptions { registry, waits_with_native, ..RunOptions::default() })
+                    .unwrap();
+            run.systems.iter().map(|system| system.chain_text()).collect()
+        };
+        let expected = made(false);
+        assert!(!expected.concat().is_empty());
+        assert_eq!(made(true), expected);
+    }
+
+    #[test]
     fn a_machine_that_was_made_ready_makes_what_others_do_once() {
         let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scripts/herb.lua");
         let made = || -> Vec<String> {

@@ -60,8 +60,10 @@ pub(super) fn function(lua: &Lua) -> mlua::Result<mlua::Function> {
     // SAFETY: `call` follows Luau's protocol for C functions.
     let function = unsafe { lua.create_c_function(call)? };
     // Nested calls reserve stack space for the handler now: once memory has run out, none can be allocated.
+    // An error of this text needs no stack trace, which takes a tenth of the time in which a short script runs.
     let mut nested: Vec<mlua::Value> = vec![mlua::Value::Function(function.clone()); DEPTH];
-    nested.push(lua.globals().raw_get("type")?);
+    nested.push(lua.globals().raw_get("error")?);
+    nested.push(mlua::Value::String(lua.create_string(OUT_OF_MEMORY_IN_LUA)?));
     function.call::<mlua::MultiValue>(mlua::Variadic::from(nested)).ok();
     Ok(function)
 }

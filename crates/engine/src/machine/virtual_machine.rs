@@ -8,7 +8,7 @@ use std::sync::Arc;
 use super::blank::BlankMachine;
 use super::library::Library;
 use super::messages::{PhaseFunction, SilentMark};
-use super::native::as_bytecode;
+use super::native::{as_bytecode, end_wait_if_due, is_kept_for_later, wait_with_native};
 use super::prelude::Prelude;
 use super::system::tell_unseen;
 use super::translation::{OUT_OF_MEMORY_IN_LUA, OWN, translate};
@@ -57,6 +57,9 @@ impl Machine {
     ) -> Result<Rc<Self>> {
         let build = || -> mlua::Result<Rc<Self>> {
             let BlankMachine { lua, prelude } = BlankMachine::take()?;
+            if session.options.waits_with_native {
+                wait_with_native(&lua);
+            }
             let guard = watchdog.register(&lua);
             let current = Rc::new(WorkState::new(Arc::clone(session)));
             let library = Rc::new(Library::new());
@@ -140,9 +143,10 @@ impl Machine {
         self.lua.set_app_data(SilentMark);
     }
 
-    /// Clears the caches of parameters if parameter values have been dropped, or if the caches are large: most objects in
-    /// parameters are read by one application only.
+    /// Prepares the machine for a batch. Clears the caches of parameters if parameter values have been dropped, or if the caches are
+    /// large: most objects in parameters are read by one application only.
     pub(crate) fn refresh(&self) {
+        end_wait_if_due(&self.lua);
         let epoch = self.session.values.epoch();
         if self.epoch.replace(epoch) != epoch || self.current.unpacked.get() > MOST_UNPACKED {
             self.current.unpacked.set(0);
@@ -194,7 +198,10 @@ impl Machine {
             Some(code) => self.lua.load(code).set_mode(ChunkMode::Binary),
             None => self.lua.load(text).set_mode(ChunkMode::Text),
         };
-        chunk.set_name(format!("@{name}")).into_function().map_err(|error| self.translate(error))
+        let function = chunk.set_name(format!("@{name}")).into_function();
+        let function = function.map_err(|error| self.translate(error))?;
+        is_kept_for_later(&self.lua, &function);
+        Ok(function)
     }
 
     /// Loads bytecode from [`compile`], without native code until [`native`] is called. Errors in it refer to

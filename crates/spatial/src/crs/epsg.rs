@@ -2,10 +2,12 @@
 
 use std::io::Read;
 use std::ops::Range;
+use std::sync::Mutex;
 
 use flate2::read::DeflateDecoder;
 
 use burgeon_base::error::{Error, Result};
+use burgeon_base::locks::LockRecovery;
 
 /// Compressed blocks, in sequence.
 static PACKED: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/epsg.deflate"));
@@ -14,6 +16,7 @@ static PACKED: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/epsg.deflate"))
 static BLOCKS: &[(u16, Range<usize>)] = include!(concat!(env!("OUT_DIR"), "/epsg.rs"));
 
 /// Coordinate system in the registry.
+#[derive(Clone)]
 pub(super) struct EpsgEntry {
     /// EPSG code.
     pub(super) code: u16,
@@ -23,9 +26,29 @@ pub(super) struct EpsgEntry {
     pub(super) text: String,
 }
 
+/// Coordinate systems that were found last, because a program uses few and unpacking a block takes long.
+static RECENT: Mutex<Vec<EpsgEntry>> = Mutex::new(Vec::new());
+
+/// Maximum number of these coordinate systems.
+const MOST_RECENT: usize = 8;
+
 /// Returns the coordinate system with a code, if the registry contains it.
 pub(super) fn entry(code: u32) -> Result<Option<EpsgEntry>> {
     let Ok(code) = u16::try_from(code) else { return Ok(None) };
+    if let Some(known) = RECENT.lock().recover().iter().find(|known| known.code == code) {
+        return Ok(Some(known.clone()));
+    }
+    let found = unpack(code)?;
+    if let Some(found) = &found {
+        let mut recent = RECENT.lock().recover();
+        recent.truncate(MOST_RECENT - 1);
+        recent.insert(0, found.clone());
+    }
+    Ok(found)
+}
+
+/// Unpacks the coordinate system with a code.
+fn unpack(code: u16) -> Result<Option<EpsgEntry>> {
     let behind = BLOCKS.partition_point(|(first, _)| *first <= code);
     let Some((_, place)) = behind.checked_sub(1).and_then(|block| BLOCKS.get(block)) else { return Ok(None) };
     let lines = block(place)?;

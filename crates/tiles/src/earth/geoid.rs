@@ -42,9 +42,10 @@ impl GeoidGrid {
         let found = columns.into_iter().find_map(|column| self.interpolate(column, row));
         found.ok_or_else(|| {
             let name = &self.0.name;
-            Error::data(format!("the geoid grid {name} does not cover {longitude:.4}, {latitude:.4}")).help(
-                "specify a grid of the whole region: --geoid FILE; or a constant: --geoid-height METRES",
-            )
+            Error::data(format!(
+                "the geoid grid {name} does not cover longitude {longitude:.4}, latitude {latitude:.4}"
+            ))
+            .help("specify a grid of the whole region: --geoid FILE; or a constant: --geoid-height METRES")
         })
     }
 
@@ -109,7 +110,10 @@ mod tests {
             assert_eq!(height(longitude, latitude), None, "{longitude} {latitude}");
         }
         let error = grid.height([9.0, 48.5]).unwrap_err();
-        assert!(error.message().contains("geoid.asc does not cover 9.0000, 48.5000"), "{error}");
+        assert!(
+            error.message().contains("geoid.asc does not cover longitude 9.0000, latitude 48.5000"),
+            "{error}"
+        );
     }
 
     #[test]

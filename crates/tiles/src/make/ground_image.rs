@@ -71,12 +71,14 @@ impl GroundImage {
     /// Paints the image of the square at `corner` with sides of `side` (m). `height` returns the height (m) at a place, if there is
     /// one, and slopes are measured over `step` (m), the same for all levels.
     ///
-    /// A texel has the mean colour of samples around it, so that small patches stay as a shade in the images of large squares.
+    /// A texel has the mean colour of samples around it, so that small patches stay as a shade in the images of large squares. Fails as
+    /// soon as `proceed` fails, which is called before each row.
     pub(super) fn paint(
         (corner, side, step): (DVec2, f64, f64),
         colors: &dyn GroundColors,
         height: impl Fn(DVec2) -> Option<f64> + Sync,
-    ) -> Self {
+        proceed: &(impl Fn() -> Result<()> + Sync),
+    ) -> Result<Self> {
         let distance = side / f64::from(INTERVALS);
         let samples = (distance / step).clamp(1.0, MOST_SAMPLES).floor();
         let offsets: Vec<f64> = std::iter::successors(Some(0.0), |at| Some(at + 1.0))
@@ -101,12 +103,16 @@ impl GroundImage {
             let around = offsets.iter().flat_map(|y| offsets.iter().map(|x| DVec2::new(*x, *y)));
             mean(around.filter_map(|offset| sample(middle + offset)))
         };
-        let row = |row: u16| (0..=INTERVALS).map(|column| texel(column, row)).collect::<Vec<_>>();
-        let texels: Vec<Option<[f32; 3]>> = (0..=INTERVALS).into_par_iter().flat_map_iter(row).collect();
+        let row = |row: u16| -> Result<Vec<Option<[f32; 3]>>> {
+            proceed()?;
+            Ok((0..=INTERVALS).map(|column| texel(column, row)).collect())
+        };
+        let rows: Vec<_> = (0..=INTERVALS).into_par_iter().map(row).collect::<Result<_>>()?;
+        let texels = || rows.iter().flatten();
         // Reduced images also show texels beside the ground.
-        let rest = mean(texels.iter().flatten().copied()).unwrap_or_default();
-        let bytes = texels.iter().flat_map(|texel| texel.unwrap_or(rest).map(srgb_byte)).collect();
-        Self { corner, side, bytes }
+        let rest = mean(texels().flatten().copied()).unwrap_or_default();
+        let bytes = texels().flat_map(|texel| texel.unwrap_or(rest).map(srgb_byte)).collect();
+        Ok(Self { corner, side, bytes })
     }
 
     /// Returns the texture coordinates (m) of a place.
@@ -136,6 +142,10 @@ fn mean(colors: impl Iterator<Item = [f32; 3]>) -> Option<[f32; 3]> {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::atomic::{AtomicUsize, Ordering};
+
+    use burgeon_base::error::Error;
+
     use super::*;
 
     /// Colours that differ with the slope and with the place, in stripes of 3 m.
@@ -156,6 +166,10 @@ mod tests {
         }
     }
 
+    fn painted(square: (DVec2, f64, f64), height: impl Fn(DVec2) -> Option<f64> + Sync) -> GroundImage {
+        GroundImage::paint(square, &Stripes, height, &|| Ok(())).unwrap()
+    }
+
     fn texel(image: &GroundImage, column: usize, row: usize) -> &[u8] {
         let at = (row * (usize::from(INTERVALS) + 1) + column) * 3;
         &image.bytes[at..at + 3]
@@ -164,7 +178,7 @@ mod tests {
     #[test]
     fn images_of_adjacent_squares_have_the_same_texels_at_their_common_side() {
         let height = |place: DVec2| Some(place.x * place.y * 0.01);
-        let at = |x: f64, side: f64| GroundImage::paint((DVec2::new(x, -64.0), side, 1.0), &Stripes, height);
+        let at = |x: f64, side: f64| painted((DVec2::new(x, -64.0), side, 1.0), height);
         let (west, east) = (at(-128.0, 128.0), at(0.0, 128.0));
         let last = usize::from(INTERVALS);
         assert!((0..=last).all(|row| texel(&west, last, row) == texel(&east, 0, row)));
@@ -177,7 +191,7 @@ mod tests {
         // Waves of 8 m with slopes of up to 45 degrees, which are invisible at intervals of 32 m.
         let height =
             |place: DVec2| Some((place.y * std::f64::consts::TAU / 8.0).sin() * 8.0 / std::f64::consts::TAU);
-        let image = GroundImage::paint((DVec2::ZERO, 4096.0, 1.0), &Stripes, height);
+        let image = painted((DVec2::ZERO, 4096.0, 1.0), height);
         let greens = (20..100).map(|row| u32::from(texel(&image, 64, row)[1])).sum::<u32>() / 80;
         assert!(greens > 150, "{greens}");
         let reds = (20..100).map(|column| u32::from(texel(&image, column, 64)[0])).sum::<u32>() / 80;
@@ -186,9 +200,28 @@ mod tests {
     }
 
     #[test]
+    fn an_image_ends_before_the_row_at_which_it_may_not_proceed() {
+        let (rows, heights) = (AtomicUsize::new(0), AtomicUsize::new(0));
+        let height = |_: DVec2| {
+            heights.fetch_add(1, Ordering::Relaxed);
+            Some(0.0)
+        };
+        let proceed = || match rows.fetch_add(1, Ordering::Relaxed) {
+            0..10 => Ok(()),
+            _ => Err(Error::cancellation("stopped")),
+        };
+        let threads = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+        let square = (DVec2::ZERO, 128.0, 1.0);
+        let image = threads.install(|| GroundImage::paint(square, &Stripes, height, &proceed));
+        assert_eq!(image.err().unwrap().message(), "stopped");
+        // A sample needs five heights, and a row has 129 samples.
+        assert_eq!(heights.into_inner(), 10 * 129 * 5);
+    }
+
+    #[test]
     fn texels_without_ground_have_the_mean_colour_of_the_others() {
         let height = |place: DVec2| (place.x < 32.0).then_some(0.0);
-        let image = GroundImage::paint((DVec2::ZERO, 128.0, 1.0), &Stripes, height);
+        let image = painted((DVec2::ZERO, 128.0, 1.0), height);
         assert_eq!(texel(&image, 100, 5), texel(&image, 120, 90));
         assert!(texel(&image, 100, 5)[0] > 100 && texel(&image, 100, 5)[2] == 137);
     }

@@ -81,6 +81,9 @@ pub struct ManifestError {
     pub code: String,
     /// Message.
     pub message: String,
+    /// Set if the features that were read are not those of the plan, so that the tile is made again once they are.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub of_other_data: bool,
 }
 
 impl TileManifest {

@@ -56,14 +56,29 @@ impl TerrainHeights {
     /// `colors`. The error of the content is the largest distance (m) from the next finer grid.
     ///
     /// The skirts of two tiles of any levels cover the gap between them: a skirt is as deep as the side is above the same side in any
-    /// other level.
+    /// other level. The content is an error as soon as `proceed` fails, which is called before each row of the image.
     pub fn build(
         &self,
         terrain: &PlannedTerrain,
         tile: &PlannedTile,
         model: TileModelOptions,
         colors: &dyn GroundColors,
+        proceed: &(impl Fn() -> Result<()> + Sync),
     ) -> BuiltTile {
+        let content = self.content(terrain, tile, model, colors, proceed);
+        BuiltTile { features: Vec::new(), content, is_of_plan: true }
+    }
+
+    /// Builds the content of a tile.
+    fn content(
+        &self,
+        terrain: &PlannedTerrain,
+        tile: &PlannedTile,
+        model: TileModelOptions,
+        colors: &dyn GroundColors,
+        proceed: &(impl Fn() -> Result<()> + Sync),
+    ) -> Result<TileContent> {
+        proceed()?;
         let [west, south, east, north] = TileGrid::bounds(tile.id);
         let spacing = PlannedTerrain::spacing(tile.id.level);
         let corner = DVec2::new(west, south);
@@ -77,24 +92,21 @@ impl TerrainHeights {
         let sides = [(0, south), (0, north), (1, west), (1, east)];
         let depth = sides.map(|(axis, at)| self.drop_at_side(terrain, tile, axis, at));
         let depth = depth.into_iter().fold(0.0, f64::max) + margin;
-        let image = colors.uniform().is_none().then(|| {
-            let step = PlannedTerrain::spacing(terrain.finest);
-            GroundImage::paint((corner, east - west, step), colors, |place| self.0.height(place))
-        });
+        proceed()?;
+        let paint = || {
+            let square = (corner, east - west, PlannedTerrain::spacing(terrain.finest));
+            GroundImage::paint(square, colors, |place| self.0.height(place), proceed)
+        };
+        let image = colors.uniform().is_none().then(paint).transpose()?;
         let material = match &image {
-            Some(image) => image.material(1.0),
+            Some(image) => image.material(1.0)?,
             None => {
                 let [red, green, blue] = colors.uniform().unwrap_or_default();
-                Ok(Material { base_color: [red, green, blue, 1.0], roughness: 1.0, ..Material::default() })
+                Material { base_color: [red, green, blue, 1.0], roughness: 1.0, ..Material::default() }
             }
         };
-        let content = material.map(|material| TileContent {
-            scene: self.scene(&grid, depth, &material, image.as_ref()),
-            model,
-            errors: vec![finer],
-            ..TileContent::default()
-        });
-        BuiltTile { features: Vec::new(), content }
+        let scene = self.scene(&grid, depth, &material, image.as_ref());
+        Ok(TileContent { scene, model, errors: vec![finer], ..TileContent::default() })
     }
 
     /// Returns the heights of a square of `points` by `points`, row by row from the south.
@@ -336,7 +348,8 @@ mod tests {
 
     /// Returns the points (m) of a tile, and the triangles that are not in skirts.
     fn surface(heights: &TerrainHeights, terrain: &PlannedTerrain, id: TileId) -> (Vec<[DVec3; 3]>, f64) {
-        let built = heights.build(terrain, &planned(id), TileModelOptions::default(), &PlainGround);
+        let built =
+            heights.build(terrain, &planned(id), TileModelOptions::default(), &PlainGround, &|| Ok(()));
         let built = built.content.unwrap();
         let Some(instance) = built.scene.instances.first() else { return (Vec::new(), built.errors[0]) };
         let part = &built.scene.meshes[0].parts[0];
@@ -376,6 +389,15 @@ mod tests {
             }
             prop_assert!(most <= error + 1e-3 && most > error * 0.2, "{most} {error}");
         }
+    }
+
+    #[test]
+    fn a_tile_that_may_not_proceed_fails_with_the_reason() {
+        let (heights, terrain) = hills(3);
+        let tile = planned(terrain.tile_ids()[0]);
+        let stopped = || Err(burgeon_base::error::Error::cancellation("stopped"));
+        let built = heights.build(&terrain, &tile, TileModelOptions::default(), &PlainGround, &stopped);
+        assert_eq!(built.content.err().unwrap().message(), "stopped");
     }
 
     #[test]

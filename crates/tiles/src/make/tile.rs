@@ -56,12 +56,14 @@ pub struct BuiltTile {
     pub features: Vec<TileFeature>,
     /// Model, or the reason why there is none.
     pub content: Result<TileContent>,
+    /// Set if the features that were read are those of the plan.
+    pub is_of_plan: bool,
 }
 
 impl BuiltTile {
     /// Returns a tile that could not be built, without features.
     pub fn failed(error: Error) -> Self {
-        Self { features: Vec::new(), content: Err(error) }
+        Self { features: Vec::new(), content: Err(error), is_of_plan: true }
     }
 }
 
@@ -124,7 +126,7 @@ pub fn verify_features(plan: &TilePlan, tile: &PlannedTile, layers: &[Arc<Layer>
         .help("plan again: burgeon tiles plan SCRIPT -o FOLDER; unchanged tiles are kept"))
 }
 
-/// Makes a tile, unless its manifest fits the plan.
+/// Makes a tile, unless its manifest fits the plan. A tile that failed with other features than those of the plan is made again.
 ///
 /// `build` builds the model in the coordinates of the run, which `map` puts on the earth. The content is written next to its
 /// path and renamed, and the manifest is written last, so an interrupted call leaves no incomplete tile. An error of the script
@@ -136,10 +138,12 @@ pub fn make_tile(
     stop: &Arc<Stop>,
     build: impl FnOnce(&PlannedTile) -> BuiltTile,
 ) -> Result<TileOutcome> {
-    if let Some(manifest) = TileManifest::fitting(folder, tile)? {
+    let known = TileManifest::fitting(folder, tile)?;
+    let may_be_kept = |known: &TileManifest| known.error.as_ref().is_none_or(|error| !error.of_other_data);
+    if let Some(manifest) = known.filter(may_be_kept) {
         return Ok(TileOutcome::Kept(manifest));
     }
-    let BuiltTile { features, mut content } = build(tile);
+    let BuiltTile { features, mut content, is_of_plan } = build(tile);
     let mut manifest = TileManifest {
         version: PLAN_VERSION,
         tile: tile.id,
@@ -170,7 +174,8 @@ pub fn make_tile(
                 feature: feature.id,
                 cause: error.message().to_owned(),
             }));
-            manifest.error = Some(ManifestError { code: error.kind().code().to_owned(), message });
+            let code = error.kind().code().to_owned();
+            manifest.error = Some(ManifestError { code, message, of_other_data: !is_of_plan });
         }
     }
     if manifest.content.is_none() {

@@ -7,6 +7,6 @@ use serde::{Deserialize, Serialize};
 pub struct PlannedFile {
     /// Path, relative to the folder of the plan.
     pub path: String,
-    /// Hash of the content.
+    /// Hash of the content; empty for a file that a script looked for and that must not exist.
     pub hash: String,
 }

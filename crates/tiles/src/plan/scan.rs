@@ -91,6 +91,8 @@ struct SourceScan<'a> {
     frame: &'a ReferenceFrame,
     tall: Option<&'a TallRule>,
     label: String,
+    /// Name of the layer.
+    layer: String,
     bounds: [[f64; 3]; 2],
     division: TileDivision,
     /// Attributes, and the types of their values so far.
@@ -109,6 +111,7 @@ impl<'a> SourceScan<'a> {
             frame,
             tall,
             label: String::new(),
+            layer: String::new(),
             bounds: [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]],
             division: TileDivision::default(),
             columns: Vec::new(),
@@ -122,9 +125,10 @@ impl<'a> SourceScan<'a> {
     /// Adds the features of a piece.
     fn add(&mut self, mut table: FeatureTable) -> Result<()> {
         self.label.clone_from(&table.shown);
+        self.layer.clone_from(&table.layer);
         let bare = table.empty - table.empty_ids.len().min(table.empty);
         for id in std::mem::take(&mut table.empty_ids) {
-            self.leave_out(id, "the feature has no geometry");
+            self.leave_out(id, "the feature has no geometry, or too few points for one");
         }
         if bare > 0 {
             self.notes
@@ -202,7 +206,7 @@ impl<'a> SourceScan<'a> {
     fn leave_out(&mut self, feature: String, cause: impl Into<String>) {
         if self.left_out.len() < LISTED {
             let cause = cause.into();
-            self.left_out.push(OmittedFeature { layer: self.label.clone(), feature, cause });
+            self.left_out.push(OmittedFeature { layer: self.layer.clone(), feature, cause });
         }
     }
 }

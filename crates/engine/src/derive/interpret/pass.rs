@@ -272,6 +272,7 @@ impl InterpretationPass {
     }
 
     fn piece(self: &Arc<Self>, machine: &Machine, begin: Mark, end: Mark) -> Result<()> {
+        machine.refresh();
         let mut applier = Applier::new(Arc::clone(self), machine, begin)?;
         if let Some(memory) = &self.memory
             && let Some(mark) = memory.lock().recover().marks.last()
