@@ -1,8 +1,10 @@
 //! Paths and files of a plan.
 
 use std::borrow::Cow;
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
+use burgeon::script::Session;
 use burgeon::tiles::TileFolder;
 use burgeon::tiles::earth::GeoidGrid;
 use burgeon::tiles::make::TerrainHeights;
@@ -44,7 +46,7 @@ pub(super) fn portable_path(base: &Path, path: &Path) -> Result<String> {
 
 /// Returns the path of a file that does not exist as [`portable_path`] does; `None` unless it is in one of `folders`, which are
 /// canonical.
-pub(super) fn portable_absent_path(base: &Path, path: &Path, folders: &[PathBuf]) -> Result<Option<String>> {
+fn portable_absent_path(base: &Path, path: &Path, folders: &[PathBuf]) -> Result<Option<String>> {
     let absolute = std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
     for ancestor in absolute.ancestors().skip(1) {
         let Ok(there) = ancestor.canonicalize() else { continue };
@@ -77,6 +79,35 @@ pub(super) fn hash_file(path: &Path) -> Result<String> {
         }
     }
     Ok(hashes.join("+"))
+}
+
+/// Returns the files that a script has read in `session`, except the sources `own`, and those that it looked for in its folder or in the
+/// folders of data and did not find: a file that is added later changes the result, too.
+pub(super) fn planned_files(
+    session: &Session,
+    folder: &Path,
+    data: &[PathBuf],
+    own: &BTreeSet<PathBuf>,
+) -> Result<Vec<PlannedFile>> {
+    let roots = std::iter::once(session.root()).chain(data.iter().map(PathBuf::as_path));
+    let roots: Vec<PathBuf> = roots.filter_map(|folder| folder.canonicalize().ok()).collect();
+    let (mut files, mut spellings) = (Vec::new(), BTreeSet::new());
+    let mut absent = Vec::new();
+    for (path, is_there) in session.sought() {
+        if !is_there {
+            absent.extend(portable_absent_path(folder, &path, &roots)?);
+        } else if path.is_file() && !path.canonicalize().is_ok_and(|path| own.contains(&path)) {
+            let (path, hash) = (portable_path(folder, &path)?, hash_file(&path)?);
+            spellings.insert(path.to_lowercase());
+            files.push(PlannedFile { path, hash });
+        }
+    }
+    // Another spelling of a file that exists is this file on some systems.
+    absent.retain(|path| !spellings.contains(&path.to_lowercase()));
+    files.extend(absent.into_iter().map(|path| PlannedFile { path, hash: String::new() }));
+    files.sort_by(|a, b| a.path.cmp(&b.path));
+    files.dedup();
+    Ok(files)
 }
 
 /// Returns the script flags of a plan in `folder`.

@@ -26,7 +26,7 @@ use super::super::report;
 use super::super::shared::ScriptFlags;
 use super::build::TileBuilder;
 use super::ground::ScriptGround;
-use super::inputs::{hash_file, portable_absent_path, portable_path, tile_folder};
+use super::inputs::{hash_file, planned_files, portable_path, tile_folder};
 
 /// Divides the features of a script among tiles, and writes the plan
 #[derive(Args)]
@@ -211,25 +211,7 @@ impl PlanCommand {
         }
         self.check_tall(&planned)?;
         let portable = |path: &Path| portable_path(folder, path);
-        let data = self.script.data_folders().iter().map(PathBuf::as_path);
-        let roots = std::iter::once(session.root()).chain(data);
-        let roots: Vec<PathBuf> = roots.filter_map(|folder| folder.canonicalize().ok()).collect();
-        let mut files = Vec::new();
-        for (path, is_there) in session.sought() {
-            if !is_there {
-                // A file that is added later changes the result, too.
-                let absent = portable_absent_path(folder, &path, &roots)?;
-                files.extend(absent.map(|path| PlannedFile { path, hash: String::new() }));
-            } else if path.is_file() && !path.canonicalize().is_ok_and(|path| own.contains(&path)) {
-                files.push(PlannedFile { path: portable(&path)?, hash: hash_file(&path)? });
-            }
-        }
-        files.sort_by(|a, b| a.path.cmp(&b.path));
-        files.dedup();
-        // Another spelling of a file that exists is this file on some systems.
-        let there: BTreeSet<String> =
-            files.iter().filter(|file| !file.hash.is_empty()).map(|file| file.path.to_lowercase()).collect();
-        files.retain(|file| !file.hash.is_empty() || !there.contains(&file.path.to_lowercase()));
+        let files = planned_files(session, folder, self.script.data_folders(), &own)?;
         let packages = session.lock()?;
         let packages = packages.iter().map(|it| format!("{} {} {}", it.name, it.version, it.hash)).collect();
         let mut plan = TilePlan {
