@@ -1,4 +1,4 @@
--- Twigs with leaves on both sides that begin on edge; on the right, a torque rolls the twig until they face upwards.
+-- Twigs with leaves on both sides that begin on edge; a torque rolls the twig behind until they face upwards.
 local Twig = module("Twig", "y", "strength")
 local twigs = lsystem({ object = turtle({ width = 0.05, color = "#7a6248" }) })
 twigs:axiom({ Twig(0, 0) }, { Twig(1.6, 0.35) })
