@@ -157,7 +157,7 @@ fn a_pattern_writes_a_model_for_each_frame_that_equals_a_single_run() {
 
 #[test]
 fn a_film_has_the_warnings_about_the_files_of_its_first_frame() {
-    let folder = Folder::new().with("s.lua", &SCRIPT.replace("sides = 4", "sides = 4, caps = false"));
+    let folder = Folder::new().with("s.lua", SCRIPT.replace("sides = 4", "sides = 4, caps = false"));
     let flags = ["--frames", "0:2:1", "-o", "%d.stl"];
     let said = folder.burgeon(&arguments(&flags)).done();
     assert!(said.stderr.contains("0.stl: ") && said.stderr.contains(" open edges"), "{}", said.stderr);

@@ -4,7 +4,6 @@ use std::path::{Path, PathBuf};
 
 use super::facts::Export;
 use super::files::Files;
-use super::surface_warning::surface_warnings;
 use burgeon_base::error::{Error, Result};
 
 /// Properties of every file format.
@@ -112,13 +111,6 @@ impl Format {
     /// Returns true if the format describes this part of a run.
     pub fn needs(&self, need: Need) -> bool {
         self.needs.contains(&need)
-    }
-
-    /// Writes an export to the future file `path`, and adds warnings of what its materials have and the format lacks.
-    pub(super) fn export(&self, export: &Export<'_>, path: &Path, files: &mut Files) -> Result<()> {
-        (self.write)(export, path, files)?;
-        files.warn_all(surface_warnings(self, export.scene, path)?);
-        Ok(())
     }
 
     /// Returns true if a scene and a camera are enough for the format.

@@ -3,6 +3,8 @@
 use std::path::Path;
 
 use super::check::check;
+use super::facts::Export;
+use super::files::Files;
 use super::format::{Format, SurfaceDetail, extension_list};
 use super::formats::FORMATS;
 use burgeon_base::error::Result;
@@ -19,9 +21,18 @@ const KINDS: [MaterialImage; 2] = [
     ("dirt map", SurfaceDetail::Full, |material| material.dirt_map.is_some()),
 ];
 
+impl Format {
+    /// Writes an export to the future file `path`, and adds warnings of what its materials have and the format lacks.
+    pub(super) fn export(&self, export: &Export<'_>, path: &Path, files: &mut Files) -> Result<()> {
+        (self.write)(export, path, files)?;
+        files.warn_all(surface_warnings(self, export.scene, path)?);
+        Ok(())
+    }
+}
+
 /// Returns warnings of the images of shown materials that a file at `path` in a `format` does not have. Fails if the scene
 /// is invalid.
-pub(super) fn surface_warnings(format: &Format, scene: &Scene, path: &Path) -> Result<Vec<Warning>> {
+fn surface_warnings(format: &Format, scene: &Scene, path: &Path) -> Result<Vec<Warning>> {
     let Some(detail) = format.surface else { return Ok(Vec::new()) };
     let missing: Vec<&MaterialImage> = KINDS.iter().filter(|(_, least, _)| detail < *least).collect();
     if !missing.iter().any(|(_, _, has)| scene.materials.iter().any(has)) {
@@ -59,7 +70,7 @@ fn reason(detail: SurfaceDetail) -> &'static str {
 mod tests {
     use super::super::samples;
     use super::*;
-    use crate::{Export, Files, SceneFacts};
+    use crate::SceneFacts;
     use burgeon_picture::Picture;
 
     /// Returns the warnings of normal maps and dirt maps that a format gives for a scene.

@@ -30,7 +30,7 @@ pub(crate) fn remove_flat_triangles(mesh: &mut PolygonMesh, near: f64) -> Result
     let is_flat = |triangle: [u32; 3]| is_thin(triangle.map(|point| points[point as usize]), near);
     let mut flat: VecDeque<usize> =
         (0..triangles.len()).filter(|&number| triangles[number].is_some_and(is_flat)).collect();
-    let mut sides = Sides::default();
+    let mut sides = TriangleSides::default();
     if !flat.is_empty() {
         triangles.iter().enumerate().for_each(|(number, triangle)| sides.add(number, *triangle));
     }
@@ -105,9 +105,9 @@ fn is_thin([a, b, c]: [DVec3; 3], near: f64) -> bool {
 
 /// Triangles at each directed edge.
 #[derive(Default)]
-struct Sides(FxHashMap<[u32; 2], SmallVec<[usize; 1]>>);
+struct TriangleSides(FxHashMap<[u32; 2], SmallVec<[usize; 1]>>);
 
-impl Sides {
+impl TriangleSides {
     fn add(&mut self, number: usize, triangle: Option<[u32; 3]>) {
         for [a, b] in triangle.into_iter().flat_map(|[a, b, c]| [[a, b], [b, c], [c, a]]) {
             self.0.entry([a, b]).or_default().push(number);
