@@ -1,5 +1,6 @@
 -- A generalised cylinder whose width changes smoothly, and a square bar that twists by 40 degrees from point to point.
-local square = curve({ points = { { 1, 1 }, { -1, 1 }, { -1, -1 }, { 1, -1 } }, closed = true, kind = "linear" })
+local square =
+  curve({ points = { { 1, 1 }, { -1, 1 }, { -1, -1 }, { 1, -1 } }, closed = true, kind = "linear" })
 local Part, Bar = module("Part"), module("Bar")
 local parts = lsystem({ object = turtle({ width = 0.1, color = "#7fa650", sides = 16 }) })
 parts:axiom({ Part() }, { Bar() })
