@@ -9,35 +9,35 @@ pub(crate) const ROWS: usize = 64;
 /// A formula of the arguments of a rule: a number, or a truth value of comparisons.
 ///
 /// ```
-/// use burgeon_rewriting::Formula;
+/// use burgeon_rewriting::RuleFormula;
 ///
 /// let rows = [[3.0, 4.0], [9.0, 4.0]];
 /// let fill = |argument: usize, column: &mut [f64]| (0..2).for_each(|row| column[row] = rows[row][argument]);
-/// let sum = Formula::read("a0 a1 + o0 *", &[10.0]).expect("a formula");
+/// let sum = RuleFormula::read("a0 a1 + o0 *", &[10.0]).expect("a formula");
 /// assert_eq!(sum.evaluate(2, fill).map(|column| [column[0], column[1]]), Some([70.0, 130.0]));
-/// let condition = Formula::read("a0 a1 + 10 < a1 0 > and", &[]).expect("a formula");
+/// let condition = RuleFormula::read("a0 a1 + 10 < a1 0 > and", &[]).expect("a formula");
 /// assert_eq!(condition.evaluate(2, fill).map(|column| [column[0], column[1]]), Some([1.0, 0.0]));
 /// assert!(condition.is_truth() && condition.evaluate(1, |_, column| column[0] = f64::NAN).is_none());
 /// ```
 #[derive(Debug, Clone, PartialEq)]
-pub struct Formula {
-    operations: Vec<Operation>,
+pub struct RuleFormula {
+    steps: Vec<FormulaStep>,
     is_truth: bool,
 }
 
-/// Operation on the last values. Truth values are 1 and 0.
+/// Step of an evaluation, on the last values. Truth values are 1 and 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Operation {
+enum FormulaStep {
     Number(f64),
     Argument(usize),
     Negate,
     Not,
-    Two(Operator),
+    Two(FormulaOperator),
 }
 
 /// Operator of two values.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Operator {
+enum FormulaOperator {
     Add,
     Subtract,
     Multiply,
@@ -54,25 +54,25 @@ enum Operator {
     Or,
 }
 
-impl Formula {
+impl RuleFormula {
     /// Reads a formula in postfix notation: numbers, arguments `a0`, `a1` ... , the numbers `outer` as `o0`, `o1` ... , and
     /// the operators of Lua, with `neg` for the negative number. Returns `None` for anything else.
     pub fn read(code: &str, outer: &[f64]) -> Option<Self> {
-        let mut operations = Vec::new();
+        let mut steps = Vec::new();
         // Set for truth values.
         let mut types: Vec<bool> = Vec::new();
         for word in code.split(' ') {
-            let (operation, taken, is_truth) = match word {
-                "true" | "false" => (Operation::Number(f64::from(word == "true")), &[][..], true),
-                "neg" => (Operation::Negate, &[false][..], false),
-                "not" => (Operation::Not, &[true][..], true),
-                _ => match Operator::read(word) {
+            let (step, taken, is_truth) = match word {
+                "true" | "false" => (FormulaStep::Number(f64::from(word == "true")), &[][..], true),
+                "neg" => (FormulaStep::Negate, &[false][..], false),
+                "not" => (FormulaStep::Not, &[true][..], true),
+                _ => match FormulaOperator::read(word) {
                     Some((operator, of, gives)) => (
-                        Operation::Two(operator),
+                        FormulaStep::Two(operator),
                         if of { &[true, true][..] } else { &[false, false] },
                         gives,
                     ),
-                    None => (Operation::operand(word, outer)?, &[][..], false),
+                    None => (FormulaStep::operand(word, outer)?, &[][..], false),
                 },
             };
             let rest = types.len().checked_sub(taken.len())?;
@@ -80,13 +80,13 @@ impl Formula {
                 return None;
             }
             types.push(is_truth);
-            operations.push(operation);
+            steps.push(step);
             if types.len() > DEEPEST {
                 return None;
             }
         }
         let [is_truth] = *types.as_slice() else { return None };
-        Some(Self { operations, is_truth })
+        Some(Self { steps, is_truth })
     }
 
     /// Returns true if the values are truth values, 1 or 0.
@@ -103,13 +103,13 @@ impl Formula {
         let rows = rows.min(ROWS);
         let mut columns = [[0.0; ROWS]; DEEPEST];
         let mut count = 0;
-        for operation in &self.operations {
-            match *operation {
-                Operation::Number(number) => {
+        for step in &self.steps {
+            match *step {
+                FormulaStep::Number(number) => {
                     columns[count] = [number; ROWS];
                     count += 1;
                 }
-                Operation::Argument(index) => {
+                FormulaStep::Argument(index) => {
                     let column = &mut columns[count][..rows];
                     fill(index, column);
                     if column.iter().any(|value| value.is_nan()) {
@@ -117,9 +117,9 @@ impl Formula {
                     }
                     count += 1;
                 }
-                Operation::Negate => columns[count - 1].iter_mut().for_each(|value| *value = -*value),
-                Operation::Not => columns[count - 1].iter_mut().for_each(|value| *value = 1.0 - *value),
-                Operation::Two(operator) => {
+                FormulaStep::Negate => columns[count - 1].iter_mut().for_each(|value| *value = -*value),
+                FormulaStep::Not => columns[count - 1].iter_mut().for_each(|value| *value = 1.0 - *value),
+                FormulaStep::Two(operator) => {
                     count -= 1;
                     let (lower, upper) = columns.split_at_mut(count);
                     operator.apply(&mut lower[count - 1], &upper[0]);
@@ -132,14 +132,14 @@ impl Formula {
 
     /// Returns the indices of the arguments that the formula reads.
     pub fn arguments(&self) -> impl Iterator<Item = usize> {
-        self.operations.iter().filter_map(|operation| match operation {
-            Operation::Argument(index) => Some(*index),
+        self.steps.iter().filter_map(|step| match step {
+            FormulaStep::Argument(index) => Some(*index),
             _ => None,
         })
     }
 }
 
-impl Operation {
+impl FormulaStep {
     /// Reads a number or a variable.
     fn operand(word: &str, outer: &[f64]) -> Option<Self> {
         if let Some(index) = word.strip_prefix('a') {
@@ -152,7 +152,7 @@ impl Operation {
     }
 }
 
-impl Operator {
+impl FormulaOperator {
     /// Reads an operator. The flags are set if it takes and if it gives truth values.
     fn read(word: &str) -> Option<(Self, bool, bool)> {
         Some(match word {
@@ -210,10 +210,10 @@ mod tests {
         for code in
             ["", "a0 1", "a0 1 < 2", "<", "1 <", "a0 1 < a0 and", "a0 not", "a0 1 < neg", "o1 1 <", "x 1 <"]
         {
-            assert_eq!(Formula::read(code, &outer), None, "{code}");
+            assert_eq!(RuleFormula::read(code, &outer), None, "{code}");
         }
         let deep = format!("{}{}1 <", "a0 ".repeat(DEEPEST + 1), "+ ".repeat(DEEPEST));
-        assert_eq!(Formula::read(&deep, &outer), None);
+        assert_eq!(RuleFormula::read(&deep, &outer), None);
     }
 
     #[test]
@@ -229,7 +229,7 @@ mod tests {
             ("a0 1 < a1 1 < and", [3.0, 0.0], false),
             ("true false and not", [0.0, 0.0], true),
         ] {
-            let condition = Formula::read(code, &[]).unwrap();
+            let condition = RuleFormula::read(code, &[]).unwrap();
             let values = condition.evaluate(1, |index, column| column[0] = arguments[index]);
             assert_eq!(values.map(|values| values[0]), Some(f64::from(expected)), "{code}");
         }

@@ -1,10 +1,10 @@
 //! Rules without their successors.
 
 use super::chain::Symbol;
-use super::formula::Formula;
+use super::formula::RuleFormula;
+use super::formula_set::{FormulaSet, Production};
 use super::pattern::{Item, Pattern};
 use super::regions::Region;
-use super::rule_formulas::{Production, RuleFormulas};
 use super::successors::ReturnShape;
 use burgeon_base::error::SourcePlace;
 
@@ -31,7 +31,7 @@ pub struct Rule {
     /// Symbols that the contexts of this rule skip, if they are not those of the system.
     pub(super) ignored: Option<Vec<Symbol>>,
     propensity: Option<Propensity>,
-    condition: Option<RuleFormulas>,
+    condition: Option<FormulaSet>,
     production: Option<Production>,
     region: Region,
     contexts: Vec<Item>,
@@ -100,9 +100,9 @@ impl Rule {
     /// Returns the rule whose guard is a condition, which is evaluated in its place. The guard is still needed for arguments that
     /// are no numbers.
     #[must_use]
-    pub fn with_condition(mut self, condition: Formula) -> Self {
+    pub fn with_condition(mut self, condition: RuleFormula) -> Self {
         if self.guarded && condition.is_truth() {
-            self.condition = RuleFormulas::new(&self, vec![condition]);
+            self.condition = self.formula_set(vec![condition]);
         }
         self
     }
@@ -110,14 +110,20 @@ impl Rule {
     /// Returns the rule whose successor always has a shape, with formulas of the parameters, which are evaluated in place of its
     /// function. The function is still needed for values that are no numbers.
     #[must_use]
-    pub fn with_production(mut self, shape: ReturnShape, parameters: Vec<Formula>) -> Self {
-        self.production = Production::new(&self, shape, parameters);
+    pub fn with_production(mut self, shape: ReturnShape, parameters: Vec<RuleFormula>) -> Self {
+        let parameters = self.formula_set(parameters);
+        self.production = parameters.and_then(|parameters| Production::new(shape, parameters));
         self
+    }
+
+    /// Returns formulas of the arguments; `None` if these are not all parameters of one module and its contexts before the step.
+    fn formula_set(&self, formulas: Vec<RuleFormula>) -> Option<FormulaSet> {
+        if self.skips_arguments { None } else { FormulaSet::new(&self.pattern, &self.contexts, formulas) }
     }
 
     /// Returns the condition of the guard, if the guard is one.
     #[inline]
-    pub(super) fn condition(&self) -> Option<&RuleFormulas> {
+    pub(super) fn condition(&self) -> Option<&FormulaSet> {
         self.condition.as_ref()
     }
 

@@ -54,7 +54,7 @@ pub(crate) struct Prelude {
     /// `(guard, arity, places, reads)`: returns a function that evaluates the guard for a batch.
     pub guard_driver: Function,
     /// `(rule)`: returns the formulas of a function that only calculates with numbers, separated by semicolons, the numbers in
-    /// them, see [`Formula::read`](burgeon_rewriting::Formula::read), and the number of the shape that it returns; nil for other functions.
+    /// them, see [`RuleFormula::read`](burgeon_rewriting::RuleFormula::read), and the number of the shape that it returns; nil for other functions.
     pub formulas: Function,
     /// `(propensity, arity, places)`: returns the function that evaluates the propensity of a rule for a batch.
     pub propensity_driver: Function,

@@ -10,7 +10,7 @@ const MOST: usize = 64;
 
 /// Formulas of a function, which the program evaluates without a call of the function.
 pub(super) struct FormulaText {
-    /// Operands and operators in postfix notation, as [`Formula::read`](burgeon_rewriting::Formula::read) takes them; several
+    /// Operands and operators in postfix notation, as [`RuleFormula::read`](burgeon_rewriting::RuleFormula::read) takes them; several
     /// formulas with a semicolon in between.
     pub code: String,
     /// Names of the variables outside of the function, in the order of their numbers.

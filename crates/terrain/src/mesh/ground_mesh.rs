@@ -41,7 +41,7 @@ const NONE: u32 = u32::MAX;
 const WIDEST: usize = 1025;
 
 /// Numbers of the vertices over a tile.
-struct KnownVertices {
+struct TileVertices {
     /// Corner of the tile with the least coordinates.
     first: GridCorner,
     /// Logarithm of the width of the tile's cells.
@@ -54,7 +54,7 @@ struct KnownVertices {
     others: FxHashMap<Vertex, u32>,
 }
 
-impl KnownVertices {
+impl TileVertices {
     fn new(corners: [GridCorner; 4], shift: u32) -> Self {
         let first = [0, 1].map(|axis| corners.iter().map(|corner| corner[axis]).min().unwrap_or(0));
         let last = corners.iter().map(|corner| corner[0]).max().unwrap_or(0);
@@ -173,7 +173,7 @@ impl<'a> GroundMesh<'a> {
         let tile = &self.ground.tiles()[number];
         let mut vertices = Vec::new();
         let mut known =
-            KnownVertices::new(corners(tile.place, self.ground.finest()), self.grids[number].shift);
+            TileVertices::new(corners(tile.place, self.ground.finest()), self.grids[number].shift);
         let mut triangles = Vec::new();
         let mut add = |piece: [Vertex; 3]| {
             triangles.push(piece.map(|vertex| {

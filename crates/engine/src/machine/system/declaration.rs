@@ -15,7 +15,7 @@ use crate::machine::types::methods_key;
 use crate::results::DerivedSystem;
 use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_kit::{Call, Locate, Object, ObjectPlace};
-use burgeon_rewriting::{Formula, Grammar, Region, ReturnShape, Rule, Successors, Symbol};
+use burgeon_rewriting::{Grammar, Region, ReturnShape, Rule, RuleFormula, Successors, Symbol};
 
 use super::ignored::IgnoredModules;
 use super::subsystems::{DeclaredSubsystem, LinkedSubsystems};
@@ -333,7 +333,7 @@ impl SystemDeclaration {
         &self,
         machine: &Machine,
         function: &Function,
-    ) -> Option<(Vec<Formula>, Option<ReturnShape>)> {
+    ) -> Option<(Vec<RuleFormula>, Option<ReturnShape>)> {
         type Found = (Option<String>, Option<Vec<f64>>, Option<usize>);
         let (code, outer, shape): Found = machine.prelude().formulas.call(function).ok()?;
         let (code, outer) = (code?, outer?);
@@ -341,7 +341,8 @@ impl SystemDeclaration {
             return None;
         }
         let codes = code.split(';').filter(|code| !code.is_empty());
-        let formulas: Vec<Formula> = codes.map(|code| Formula::read(code, &outer)).collect::<Option<_>>()?;
+        let formulas: Vec<RuleFormula> =
+            codes.map(|code| RuleFormula::read(code, &outer)).collect::<Option<_>>()?;
         let shapes = machine.current.shapes.borrow();
         let shape = shape.and_then(|number| shapes.get(number.checked_sub(Successors::SHAPE as usize)?));
         Some((formulas, shape.cloned()))

@@ -1,75 +1,9 @@
-//! Formulas of a rule: a guard that only compares numbers, and a successor whose parameters are formulas.
-
-use std::sync::Arc;
+//! Evaluation of the formulas of rules for the modules of a batch.
 
 use crate::batch::{Batch, Scratch};
-use crate::formula::{Formula, ROWS};
-use crate::rule::Rule;
-use crate::successors::{ReturnShape, Successors};
-
-/// Formulas with the places of the arguments that they read.
-#[derive(Debug, Clone)]
-pub(crate) struct RuleFormulas {
-    formulas: Vec<Formula>,
-    /// Place of each argument of the rule.
-    places: Vec<ArgumentPlace>,
-    /// Indices of the context modules that the formulas read.
-    contexts: Vec<usize>,
-}
-
-/// Successor of which only the parameters differ.
-#[derive(Debug, Clone)]
-pub(crate) struct Production {
-    parameters: RuleFormulas,
-    /// The only shape of the successor.
-    shapes: Arc<Vec<ReturnShape>>,
-}
-
-/// Place of an argument of a rule.
-#[derive(Debug, Clone, Copy)]
-struct ArgumentPlace {
-    /// Index among the contexts that the formulas read; `None` for the module itself.
-    context: Option<usize>,
-    /// Index among the parameters of the module.
-    parameter: usize,
-}
-
-impl RuleFormulas {
-    /// Creates formulas of the arguments of `rule`; `None` if it has not as many arguments, or if these are not all parameters of
-    /// one module and its contexts before the step.
-    pub(crate) fn new(rule: &Rule, formulas: Vec<Formula>) -> Option<Self> {
-        let read = || formulas.iter().flat_map(Formula::arguments);
-        if rule.skips_arguments() || read().any(|index| index >= rule.arguments()) {
-            return None;
-        }
-        let left = rule.pattern.left.len();
-        let of = |context: Option<usize>, bound: usize| {
-            (0..bound).map(move |parameter| ArgumentPlace { context, parameter })
-        };
-        let context = |index: usize| of(Some(index), rule.contexts()[index].bound);
-        let rights = (left..rule.contexts().len()).flat_map(context);
-        let own = of(None, rule.pattern.own_bound());
-        let mut places: Vec<_> = (0..left).flat_map(context).chain(own).chain(rights).collect();
-        let mut contexts: Vec<usize> = read().filter_map(|index| places[index].context).collect();
-        contexts.sort_unstable();
-        contexts.dedup();
-        for place in &mut places {
-            place.context = place.context.and_then(|context| contexts.binary_search(&context).ok());
-        }
-        Some(Self { formulas, places, contexts })
-    }
-}
-
-impl Production {
-    /// Creates the successor of `rule` with a shape and the formulas of its parameters; `None` if they do not fit.
-    pub(crate) fn new(rule: &Rule, shape: ReturnShape, formulas: Vec<Formula>) -> Option<Self> {
-        if shape.params != formulas.len() || formulas.iter().any(Formula::is_truth) {
-            return None;
-        }
-        let parameters = RuleFormulas::new(rule, formulas)?;
-        Some(Self { parameters, shapes: Arc::new(vec![shape]) })
-    }
-}
+use crate::formula::ROWS;
+use crate::formula_set::{ArgumentPlace, FormulaSet, Production};
+use crate::successors::Successors;
 
 impl Batch<'_> {
     /// Evaluates the condition of a rule for the applications `members`, and appends 1 to `holds` for each for which it holds,
@@ -77,7 +11,7 @@ impl Batch<'_> {
     pub(crate) fn evaluate_condition(
         &self,
         rule: u16,
-        condition: &RuleFormulas,
+        condition: &FormulaSet,
         members: &[u32],
         scratch: &mut Scratch,
         holds: &mut Vec<u32>,
@@ -117,12 +51,12 @@ impl Batch<'_> {
     fn evaluate(
         &self,
         rule: u16,
-        formulas: &RuleFormulas,
+        formulas: &FormulaSet,
         members: &[u32],
         scratch: &mut Scratch,
         mut take: impl FnMut(usize, usize, &[f64]),
     ) -> bool {
-        let RuleFormulas { formulas, places, contexts } = formulas;
+        let FormulaSet { formulas, places, contexts } = formulas;
         let bound = self.contexts().of_rule(rule);
         let params = &self.chain.params;
         let Scratch { active, bindings, .. } = scratch;
