@@ -1,7 +1,7 @@
 //! Evaluation of the formulas of rules for the modules of a batch.
 
 use crate::batch::{Batch, Scratch};
-use crate::formula::ROWS;
+use crate::formula::{FormulaColumns, ROWS};
 use crate::formula_set::{ArgumentPlace, FormulaSet, Production};
 use crate::successors::Successors;
 
@@ -62,6 +62,7 @@ impl Batch<'_> {
         let Scratch { active, bindings, .. } = scratch;
         // First parameters of the module and of the contexts that the formulas read, for each row.
         let mut begins = [0; ROWS];
+        let mut columns = FormulaColumns::default();
         let mut context_begins: Vec<u32> = Vec::new();
         for (block, members) in members.chunks(ROWS).enumerate() {
             context_begins.clear();
@@ -89,8 +90,8 @@ impl Batch<'_> {
                 }
             };
             for (number, formula) in formulas.iter().enumerate() {
-                let Some(values) = formula.evaluate(members.len(), fill) else { return false };
-                take(number, block * ROWS, &values[..members.len()]);
+                let Some(values) = formula.evaluate(members.len(), &mut columns, fill) else { return false };
+                take(number, block * ROWS, values);
             }
         }
         true

@@ -9,20 +9,31 @@ pub(crate) const ROWS: usize = 64;
 /// A formula of the arguments of a rule: a number, or a truth value of comparisons.
 ///
 /// ```
-/// use burgeon_rewriting::RuleFormula;
+/// use burgeon_rewriting::{FormulaColumns, RuleFormula};
 ///
 /// let rows = [[3.0, 4.0], [9.0, 4.0]];
 /// let fill = |argument: usize, column: &mut [f64]| (0..2).for_each(|row| column[row] = rows[row][argument]);
+/// let mut columns = FormulaColumns::default();
 /// let sum = RuleFormula::read("a0 a1 + o0 *", &[10.0]).expect("a formula");
-/// assert_eq!(sum.evaluate(2, fill).map(|column| [column[0], column[1]]), Some([70.0, 130.0]));
+/// assert_eq!(sum.evaluate(2, &mut columns, fill), Some(&[70.0, 130.0][..]));
 /// let condition = RuleFormula::read("a0 a1 + 10 < a1 0 > and", &[]).expect("a formula");
-/// assert_eq!(condition.evaluate(2, fill).map(|column| [column[0], column[1]]), Some([1.0, 0.0]));
-/// assert!(condition.is_truth() && condition.evaluate(1, |_, column| column[0] = f64::NAN).is_none());
+/// assert_eq!(condition.evaluate(2, &mut columns, fill), Some(&[1.0, 0.0][..]));
+/// assert!(condition.is_truth() && condition.evaluate(1, &mut columns, |_, column| column[0] = f64::NAN).is_none());
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct RuleFormula {
     steps: Vec<FormulaStep>,
     is_truth: bool,
+}
+
+/// Memory of evaluations: columns of values.
+#[derive(Debug)]
+pub struct FormulaColumns([[f64; ROWS]; DEEPEST]);
+
+impl Default for FormulaColumns {
+    fn default() -> Self {
+        Self([[0.0; ROWS]; DEEPEST])
+    }
 }
 
 /// Step of an evaluation, on the last values. Truth values are 1 and 0.
@@ -94,14 +105,18 @@ impl RuleFormula {
         self.is_truth
     }
 
-    /// Returns the value for each of at most 64 rows of arguments; the others have no meaning. `fill` writes the values of an
-    /// argument to a column.
+    /// Returns the value for each of at most 64 rows of arguments. `fill` writes the values of an argument to a column.
     ///
     /// Returns `None` if a value is not a number, or NaN.
     #[inline]
-    pub fn evaluate(&self, rows: usize, mut fill: impl FnMut(usize, &mut [f64])) -> Option<[f64; ROWS]> {
+    pub fn evaluate<'c>(
+        &self,
+        rows: usize,
+        columns: &'c mut FormulaColumns,
+        mut fill: impl FnMut(usize, &mut [f64]),
+    ) -> Option<&'c [f64]> {
         let rows = rows.min(ROWS);
-        let mut columns = [[0.0; ROWS]; DEEPEST];
+        let FormulaColumns(columns) = columns;
         let mut count = 0;
         for step in &self.steps {
             match *step {
@@ -126,8 +141,8 @@ impl RuleFormula {
                 }
             }
         }
-        let column = columns[0];
-        column[..rows].iter().all(|value| !value.is_nan()).then_some(column)
+        let column = &columns[0][..rows];
+        column.iter().all(|value| !value.is_nan()).then_some(column)
     }
 
     /// Returns the indices of the arguments that the formula reads.
@@ -230,8 +245,9 @@ mod tests {
             ("true false and not", [0.0, 0.0], true),
         ] {
             let condition = RuleFormula::read(code, &[]).unwrap();
-            let values = condition.evaluate(1, |index, column| column[0] = arguments[index]);
-            assert_eq!(values.map(|values| values[0]), Some(f64::from(expected)), "{code}");
+            let mut columns = FormulaColumns::default();
+            let values = condition.evaluate(1, &mut columns, |index, column| column[0] = arguments[index]);
+            assert_eq!(values, Some(&[f64::from(expected)][..]), "{code}");
         }
     }
 }

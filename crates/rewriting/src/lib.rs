@@ -110,7 +110,7 @@ pub use dependents::DependentModules;
 pub use events::{EventSeries, EventsOutcome};
 pub use events_between::{ChainsBetween, EventsNext};
 pub use failed_chains::FailedChains;
-pub use formula::RuleFormula;
+pub use formula::{FormulaColumns, RuleFormula};
 pub use grammar::{Grammar, MOST_RULES, NewContexts};
 pub use links::Links;
 pub use matching::{Bindings, ContextMatcher, RuleContexts};
