@@ -23,6 +23,9 @@ use burgeon_base::{KeyPart, ModuleKey, Stop};
 /// Maximum number of symbols of a new segment, whose possible events are found again after each event in it.
 const SEGMENT: usize = 64;
 
+/// Function between two events: it gets the chains and the number of the second event.
+pub type BetweenEvents<'a> = dyn FnMut(&ChainsBetween, usize) -> Result<EventsNext> + 'a;
+
 /// Request for events.
 #[allow(missing_debug_implementations, reason = "contains a function")]
 pub struct EventSeries<'a> {
@@ -40,7 +43,7 @@ pub struct EventSeries<'a> {
     /// `false`.
     pub watch: &'a mut dyn FnMut(usize, usize) -> bool,
     /// Function that is called between two steps, with the number of the second.
-    pub between: Option<&'a mut dyn FnMut(&ChainsBetween, usize) -> Result<EventsNext>>,
+    pub between: Option<&'a mut BetweenEvents<'a>>,
 }
 
 /// Result of events.

@@ -107,7 +107,7 @@ pub use context::ContextElement;
 pub use cut::{CutChain, cut};
 pub use dependent_rules::{DependentRules, NewContext};
 pub use dependents::DependentModules;
-pub use events::{EventSeries, EventsOutcome};
+pub use events::{BetweenEvents, EventSeries, EventsOutcome};
 pub use events_between::{ChainsBetween, EventsNext};
 pub use failed_chains::FailedChains;
 pub use formula::{FormulaColumns, RuleFormula};
