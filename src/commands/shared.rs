@@ -220,7 +220,6 @@ impl ScriptFlags {
     }
 
     /// Returns the folders whose data files the script may read, besides its own.
-    #[cfg(feature = "live")]
     pub(crate) fn data_folders(&self) -> &[PathBuf] {
         &self.data
     }
