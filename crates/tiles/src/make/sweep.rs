@@ -9,8 +9,18 @@ use crate::folder::TileFolder;
 /// Removes temporary files below `folder` whose last change is older than `age`, and returns their number. Files that
 /// cannot be removed stay.
 pub fn sweep_temporary(folder: &TileFolder, age: Duration) -> usize {
-    let Some(limit) = SystemTime::now().checked_sub(age) else { return 0 };
+    let Some(limit) = folder_time(folder.path()).and_then(|now| now.checked_sub(age)) else { return 0 };
     sweep(folder.path(), limit, 0)
+}
+
+/// Returns the time of the file system of `folder`, which is that of its files. The clock of this computer may differ from those of
+/// other workers.
+fn folder_time(folder: &Path) -> Option<SystemTime> {
+    let path = folder.join(format!(".clock.{}.part", std::process::id()));
+    let time = fs::File::create(&path).and_then(|file| file.metadata()?.modified());
+    // A file that stays is removed by a later sweep.
+    let _ = fs::remove_file(&path);
+    time.ok()
 }
 
 /// Largest depth of folders of tiles.
@@ -53,6 +63,9 @@ mod tests {
         let folder = TileFolder(folder.path().to_owned());
         assert_eq!(sweep_temporary(&folder, Duration::from_secs(3600)), 0);
         assert_eq!(sweep_temporary(&folder, Duration::ZERO), 2);
+        let left: Vec<_> =
+            folder.path().read_dir().unwrap().flatten().map(|entry| entry.file_name()).collect();
+        assert_eq!(left, ["tiles"]);
         assert!(tiles.join("5.glb").exists() && tiles.join(".hidden").exists());
     }
 }
