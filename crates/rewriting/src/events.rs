@@ -9,7 +9,7 @@ use crate::amounts::Amount;
 use crate::batch::{Active, Batch, ChainPiece};
 use crate::chain::{Chain, END, Mark, Symbol};
 use crate::event_chain::{EventChain, EventWork, drawn_event};
-use crate::events_between::{ChainsBetween, EventsNext, joined};
+use crate::events_between::{ChainsBetween, EventsNext, join_event_chains};
 use crate::phases::PhaseOutcome;
 use crate::propensities::PossibleEvent;
 use crate::rules::Rules;
@@ -222,7 +222,7 @@ impl Stepper {
         self.outputs.push(work.spare);
         self.links = links;
         if is_changed {
-            outcome.chain = Arc::new(joined(&state.chains, &plan));
+            outcome.chain = Arc::new(join_event_chains(&state.chains, &plan));
         }
         state.whole = Some(Arc::clone(&outcome.chain));
         self.events = state;

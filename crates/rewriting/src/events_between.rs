@@ -54,7 +54,7 @@ impl ChainsBetween {
 
     /// Returns a copy of the chains, one after the other. It is made once, also for clones.
     pub fn whole(&self) -> &Arc<Chain> {
-        self.shared.whole.get_or_init(|| Arc::new(joined(&self.shared.chains, &self.plan)))
+        self.shared.whole.get_or_init(|| Arc::new(join_event_chains(&self.shared.chains, &self.plan)))
     }
 
     /// Returns the chains. Fails if a function has kept a clone.
@@ -66,7 +66,7 @@ impl ChainsBetween {
 }
 
 /// Returns all chains, one after the other, with marks.
-pub(crate) fn joined(chains: &[EventChain], plan: &StepPlan) -> Chain {
+pub(crate) fn join_event_chains(chains: &[EventChain], plan: &StepPlan) -> Chain {
     let mut joined = Chain::default();
     joined.symbols.reserve_exact(chains.iter().map(|chain| chain.pieces().symbols).sum());
     for segment in chains.iter().flat_map(|chain| &chain.pieces().segments) {

@@ -19,7 +19,7 @@ fn map() -> UvMap {
     }
 }
 
-fn mapped(shape: Shape) -> Shape {
+fn project_both(shape: Shape) -> Shape {
     let set: Arc<str> = "wall".into();
     shape.project(UvMap { offset: DVec2::ZERO, ..map() }).project_set(&set, map())
 }
@@ -58,11 +58,11 @@ fn sizes(first: f64) -> PartSizes {
 }
 
 fn block() -> Shape {
-    mapped(Shape::cuboid(DVec3::new(4.0, 3.0, 2.0)))
+    project_both(Shape::cuboid(DVec3::new(4.0, 3.0, 2.0)))
 }
 
 fn face() -> Shape {
-    mapped(Shape::rectangle(DVec2::new(4.0, 3.0)))
+    project_both(Shape::rectangle(DVec2::new(4.0, 3.0)))
 }
 
 #[test]
@@ -148,7 +148,7 @@ fn faces_that_operations_make_of_a_face_have_its_sets() {
 
 #[test]
 fn reduced_joined_and_recomposed_solids_keep_the_sets() {
-    let ball = mapped(Shape::sphere(2.0, 24).expect("a ball"));
+    let ball = project_both(Shape::sphere(2.0, 24).expect("a ball"));
     let (reduced, _) = ball.reduce(0.5).expect("fewer faces");
     let (with, without) = kept(&reduced);
     assert!(with > 50 && with < kept(&ball).0 && without == 0, "{with} {without}");
@@ -166,7 +166,7 @@ fn reduced_joined_and_recomposed_solids_keep_the_sets() {
 
 #[test]
 fn the_ends_of_a_sweep_have_the_sets_of_its_profile_and_the_sides_none() {
-    let profile = mapped(Shape::rectangle(DVec2::new(0.4, 0.2)).translate(DVec3::new(-0.1, 0.0, 0.5)));
+    let profile = project_both(Shape::rectangle(DVec2::new(0.4, 0.2)).translate(DVec3::new(-0.1, 0.0, 0.5)));
     let points = vec![DVec3::new(1.0, 2.0, 3.0), DVec3::new(4.0, 2.0, 3.0), DVec3::new(4.0, 2.0, 8.0)];
     let path = SweepPath { points, twist: 0.5, scale: 2.0, ..SweepPath::default() };
     let (solid, crossing) = profile.sweep(&path).expect("a sweep");

@@ -32,8 +32,8 @@ pub struct Drawing {
     /// Position in the scene (m).
     origin: DVec3,
     materials: Vec<Arc<Material>>,
-    /// Materials and colours that were last asked for, and the indices of their parts: a few that alternate.
-    looks: Vec<(Arc<Material>, Option<[f32; 4]>, usize)>,
+    /// Materials and colours of the last requests, and the indices of their parts: a few that alternate.
+    recent: Vec<(Arc<Material>, Option<[f32; 4]>, usize)>,
     parts: Vec<Part>,
     /// Placed models with their surface meaning and frames. Each pair of model and meaning occurs once.
     placed: Vec<(Arc<Model>, Option<SurfaceMeaning>, Vec<DAffine3>)>,
@@ -62,7 +62,7 @@ pub struct DrawingMark {
 }
 
 /// Maximum number of materials and colours that a drawing finds without a comparison of materials.
-const MOST_LOOKS: usize = 8;
+const MOST_RECENT: usize = 8;
 
 impl Drawing {
     /// Creates an empty drawing whose origin is at `origin` (m).
@@ -88,7 +88,7 @@ impl Drawing {
         }
         self.nearest.take();
         self.materials.clear();
-        self.looks.clear();
+        self.recent.clear();
         self.placed.clear();
         (self.instances, self.expected) = (0, 0);
         for mut part in self.parts.drain(..).rev() {
@@ -115,7 +115,7 @@ impl Drawing {
     pub fn rewind(&mut self, mark: &DrawingMark) {
         self.nearest.take();
         self.materials.truncate(mark.parts.len());
-        self.looks.clear();
+        self.recent.clear();
         for mut part in self.parts.drain(mark.parts.len()..).rev() {
             part.clear();
             self.spare.push(part);
@@ -155,20 +155,20 @@ impl Drawing {
 
     /// Returns the index of the part with this material, in another colour if one is given, and adds the part if it is missing.
     /// Faster than [`material`](Self::material) for the same few materials again and again.
-    pub fn look(&mut self, material: &Arc<Material>, color: Option<[f32; 4]>) -> usize {
+    pub fn part_of(&mut self, material: &Arc<Material>, color: Option<[f32; 4]>) -> usize {
         let same =
             |(known, own, _): &&(Arc<Material>, _, usize)| Arc::ptr_eq(known, material) && *own == color;
-        if let Some((_, _, index)) = self.looks.iter().find(same) {
+        if let Some((_, _, index)) = self.recent.iter().find(same) {
             return *index;
         }
         let index = match color {
             Some(color) => self.material_in_color(material, color),
             None => self.find_material(material).unwrap_or_else(|| self.add_material(Arc::clone(material))),
         };
-        if self.looks.len() == MOST_LOOKS {
-            self.looks.clear();
+        if self.recent.len() == MOST_RECENT {
+            self.recent.clear();
         }
-        self.looks.push((Arc::clone(material), color, index));
+        self.recent.push((Arc::clone(material), color, index));
         index
     }
 

@@ -41,12 +41,15 @@ pub(super) fn production_of(body: &FunctionBody) -> Option<FormulaText> {
     Some(writer.end())
 }
 
+/// Writer of the formulas of a function.
 struct FormulaWriter {
+    /// Parameters of the function, with `this`.
     parameters: Vec<String>,
     /// Formulas so far.
     formulas: Vec<String>,
     /// Words of the present formula.
     words: Vec<String>,
+    /// Names of variables outside of the function.
     outer: Vec<String>,
 }
 

@@ -137,7 +137,7 @@ impl StyledParts<'_> {
         let own = style.as_deref().and_then(|style| style.material.as_ref());
         let given = if own.is_none() { color.map(|color| color.0) } else { None };
         let color = style.as_deref().and_then(|style| style.color).or(given);
-        let index = drawing.look(own.unwrap_or(base), color);
+        let index = drawing.part_of(own.unwrap_or(base), color);
         match meaning {
             Some(meaning) => drawing.surface(index, meaning),
             None => drawing.part(index),

@@ -166,7 +166,7 @@ mod tests {
         }
     }
 
-    fn painted(square: (DVec2, f64, f64), height: impl Fn(DVec2) -> Option<f64> + Sync) -> GroundImage {
+    fn paint_square(square: (DVec2, f64, f64), height: impl Fn(DVec2) -> Option<f64> + Sync) -> GroundImage {
         GroundImage::paint(square, &Stripes, height, &|| Ok(())).unwrap()
     }
 
@@ -178,7 +178,7 @@ mod tests {
     #[test]
     fn images_of_adjacent_squares_have_the_same_texels_at_their_common_side() {
         let height = |place: DVec2| Some(place.x * place.y * 0.01);
-        let at = |x: f64, side: f64| painted((DVec2::new(x, -64.0), side, 1.0), height);
+        let at = |x: f64, side: f64| paint_square((DVec2::new(x, -64.0), side, 1.0), height);
         let (west, east) = (at(-128.0, 128.0), at(0.0, 128.0));
         let last = usize::from(INTERVALS);
         assert!((0..=last).all(|row| texel(&west, last, row) == texel(&east, 0, row)));
@@ -191,7 +191,7 @@ mod tests {
         // Waves of 8 m with slopes of up to 45 degrees, which are invisible at intervals of 32 m.
         let height =
             |place: DVec2| Some((place.y * std::f64::consts::TAU / 8.0).sin() * 8.0 / std::f64::consts::TAU);
-        let image = painted((DVec2::ZERO, 4096.0, 1.0), height);
+        let image = paint_square((DVec2::ZERO, 4096.0, 1.0), height);
         let greens = (20..100).map(|row| u32::from(texel(&image, 64, row)[1])).sum::<u32>() / 80;
         assert!(greens > 150, "{greens}");
         let reds = (20..100).map(|column| u32::from(texel(&image, column, 64)[0])).sum::<u32>() / 80;
@@ -221,7 +221,7 @@ mod tests {
     #[test]
     fn texels_without_ground_have_the_mean_colour_of_the_others() {
         let height = |place: DVec2| (place.x < 32.0).then_some(0.0);
-        let image = painted((DVec2::ZERO, 128.0, 1.0), height);
+        let image = paint_square((DVec2::ZERO, 128.0, 1.0), height);
         assert_eq!(texel(&image, 100, 5), texel(&image, 120, 90));
         assert!(texel(&image, 100, 5)[0] > 100 && texel(&image, 100, 5)[2] == 137);
     }
