@@ -1,8 +1,8 @@
 //! Measures the extent of a scene.
 
 use super::extent::Extent;
-use super::points::spread;
-use super::stage::Stage;
+use super::points::{Outlines, StageFrame, hull, spread};
+use super::stage::check;
 use burgeon_base::error::Result;
 use burgeon_scene::Scene;
 use glam::{DMat3, DVec3, Vec3A};
@@ -19,10 +19,13 @@ const MOST: usize = 16 * DIRECTIONS;
 impl Extent {
     /// Computes the extent of `scene`; empty if the scene shows nothing. Fails as [`render`](super::render) does.
     pub fn of(scene: &Scene) -> Result<Self> {
-        let stage = Stage::new(scene)?;
-        let back = stage.shrink.inverse();
-        let farthest = farthest_corners(&stage.hull).into_iter();
-        Ok(Self::new(farthest.map(|i| back.transform_point3(stage.hull[i].as_dvec3())).collect()))
+        check(scene)?;
+        let outlines = Outlines::new(scene);
+        let StageFrame { shrink, bounds } = outlines.frame(None);
+        let hull = hull(outlines.placed(shrink), bounds);
+        let back = shrink.inverse();
+        let farthest = farthest_corners(&hull).into_iter();
+        Ok(Self::new(farthest.map(|i| back.transform_point3(hull[i].as_dvec3())).collect()))
     }
 
     /// Returns true if `other` does not reach farther than this extent in any direction, to within a thousandth of the

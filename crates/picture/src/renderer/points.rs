@@ -1,32 +1,92 @@
 //! Small set of points that determine the extent of a model.
 
+use super::extent::Extent;
 use burgeon_scene::{Mesh, Scene};
-use glam::{DVec3, Vec3, Vec3A};
+use glam::{Affine3A, DAffine3, DMat3, DVec3, Mat3A, Vec3, Vec3A};
 use rayon::prelude::*;
+use std::borrow::Cow;
 
 /// Number of cells along each side of the grid that reduces the number of points.
 const CELLS: usize = 32;
 
-/// Returns for each mesh the points that determine its extent: all of them if the mesh has few instances, otherwise the
-/// farthest in each of many directions. Points that are not finite and meshes that are not shown are skipped.
-pub(super) fn outlines(scene: &Scene) -> Vec<Vec<Vec3>> {
-    let mut uses = vec![0_usize; scene.meshes.len()];
-    for instance in &scene.instances {
-        uses[instance.mesh] += 1;
-    }
-    scene.meshes.par_iter().zip(uses).map(|(mesh, uses)| outline(mesh, uses)).collect()
+/// Points that determine the extent of a scene.
+pub(super) struct Outlines<'a> {
+    scene: &'a Scene,
+    /// Points of each mesh: all of them if the mesh has few instances, otherwise the farthest in each of many directions.
+    meshes: Vec<Vec<Cow<'a, [Vec3]>>>,
 }
 
-fn outline(mesh: &Mesh, uses: usize) -> Vec<Vec3> {
+/// Position and size of a scene on its stage.
+pub(super) struct StageFrame {
+    /// Transform from the world to the stage.
+    pub shrink: DAffine3,
+    /// Minimum and maximum corner of the scene's bounding box on the stage.
+    pub bounds: (Vec3A, Vec3A),
+}
+
+impl<'a> Outlines<'a> {
+    /// Finds the points of `scene`. Meshes that are not shown have none.
+    pub(super) fn new(scene: &'a Scene) -> Self {
+        let mut uses = vec![0_usize; scene.meshes.len()];
+        for instance in &scene.instances {
+            uses[instance.mesh] += 1;
+        }
+        let meshes = scene.meshes.par_iter().zip(uses).map(|(mesh, uses)| outline(mesh, uses)).collect();
+        Self { scene, meshes }
+    }
+
+    /// Creates the outlines of `scene` without points.
+    pub(super) fn empty(scene: &'a Scene) -> Self {
+        Self { scene, meshes: vec![Vec::new(); scene.meshes.len()] }
+    }
+
+    /// Returns the frame of the scene's stage, relative to the centre and the radius of `extent`, if there is one, or to those
+    /// of the points.
+    pub(super) fn frame(&self, extent: Option<&Extent>) -> StageFrame {
+        let turn = self.scene.upright.map_or(DMat3::IDENTITY, |upright| upright.rotation());
+        let (low, high) = bounds(self.scene.instances.iter().flat_map(|instance| {
+            let transform = DAffine3::from_mat3(turn) * instance.transform;
+            self.points(instance.mesh).map(move |point| transform.transform_point3(point.as_dvec3()))
+        }));
+        let (center, radius) = extent.map_or_else(|| sphere(low, high), |extent| extent.sphere(turn));
+        let shrink = DAffine3::from_mat3_translation(turn * (1.0 / radius), -center / radius);
+        let place = |corner: DVec3| ((corner - center) / radius).as_vec3a();
+        StageFrame { shrink, bounds: (place(low), place(high)) }
+    }
+
+    /// Returns the points of all instances, transformed by `shrink`. Points that are not finite are skipped.
+    pub(super) fn placed(&self, shrink: DAffine3) -> impl Iterator<Item = Vec3A> {
+        self.scene
+            .instances
+            .iter()
+            .flat_map(move |instance| {
+                let place = to_single(&(shrink * instance.transform));
+                self.points(instance.mesh).map(move |point| place.transform_point3a(Vec3A::from(*point)))
+            })
+            .filter(|point| point.is_finite())
+    }
+
+    fn points(&self, mesh: usize) -> impl Iterator<Item = &Vec3> {
+        self.meshes[mesh].iter().flat_map(|points| points.iter())
+    }
+}
+
+/// Converts `place` to single precision.
+pub(super) fn to_single(place: &DAffine3) -> Affine3A {
+    let matrix = place.matrix3.as_mat3();
+    Affine3A { matrix3: Mat3A::from(matrix), translation: place.translation.as_vec3a() }
+}
+
+fn outline(mesh: &Mesh, uses: usize) -> Vec<Cow<'_, [Vec3]>> {
     if uses == 0 {
         return Vec::new();
     }
     let seen = mesh.parts.iter().filter(|part| !part.triangles.is_empty());
-    let points: Vec<Vec3> =
-        seen.flat_map(|part| &part.positions).copied().filter(|p| p.is_finite()).collect();
-    if uses <= 8 || points.len() <= 32 {
-        return points;
+    let parts: Vec<&[Vec3]> = seen.map(|part| part.positions.as_slice()).collect();
+    if uses <= 8 || parts.iter().map(|part| part.len()).sum::<usize>() <= 32 {
+        return parts.into_iter().map(Cow::Borrowed).collect();
     }
+    let points: Vec<Vec3> = parts.into_iter().flatten().copied().filter(|point| point.is_finite()).collect();
     let mut farthest: Vec<usize> = (0..96)
         .filter_map(|i| {
             let direction = spread(i, 96).as_vec3();
@@ -36,7 +96,7 @@ fn outline(mesh: &Mesh, uses: usize) -> Vec<Vec3> {
         .collect();
     farthest.sort_unstable();
     farthest.dedup();
-    farthest.into_iter().map(|i| points[i]).collect()
+    vec![Cow::Owned(farthest.into_iter().map(|i| points[i]).collect())]
 }
 
 /// Returns direction `i` of `count` directions, evenly distributed over the sphere along a spiral.
@@ -70,12 +130,13 @@ pub(super) fn hull(points: impl Iterator<Item = Vec3A>, bounds: (Vec3A, Vec3A)) 
     let mut cells: Vec<Option<(Vec3A, Vec3A)>> = vec![None; CELLS * CELLS * CELLS];
     let last = CELLS as f32 - 1.0;
     let scale = CELLS as f32 / (bounds.1 - bounds.0).max(Vec3A::splat(1e-6));
-    for point in points {
+    // Iterating inside of the iterator is several times as fast, because it consists of nested ones.
+    points.for_each(|point| {
         let at = ((point - bounds.0) * scale).clamp(Vec3A::ZERO, Vec3A::splat(last));
         let index = (at.z as usize * CELLS + at.y as usize) * CELLS + at.x as usize;
         let cell = &mut cells[index];
         *cell = Some(cell.map_or((point, point), |(low, high)| (low.min(point), high.max(point))));
-    }
+    });
     let boxes = cells.into_iter().flatten();
     boxes.flat_map(|(low, high)| (0..8).map(move |corner| pick(corner, low, high))).collect()
 }

@@ -4,7 +4,7 @@
 //! no gap and cover no sample twice.
 
 use glam::Vec3A;
-use std::ops::Range;
+use std::ops::{Range, RangeInclusive};
 
 /// Subdivisions of a sample to which coordinates are rounded.
 const FINE: f64 = 256.0;
@@ -54,18 +54,21 @@ impl RasterGrid<'_> {
             return;
         }
         let turn = area.signum();
+        let rows = first as usize..=last as usize;
+        let plane = DepthPlane { triangle, corners: [[ax, ay], [bx, by], [cx, cy]], area };
+        if rightmost - leftmost < SMALL * FINE && highest - lowest < SMALL {
+            return self.cover_small(&plane, [leftmost, rightmost], rows, row);
+        }
         let edges = [
             RasterEdge::new(ax, ay, bx, by, turn),
             RasterEdge::new(bx, by, cx, cy, turn),
             RasterEdge::new(cx, cy, ax, ay, turn),
         ];
 
-        let (dz1, dz2, part) = (f64::from(b.z - a.z), f64::from(c.z - a.z), 1.0 / area);
-        let along = (dz1 * (cy - ay) - dz2 * (by - ay)) * part;
-        let down = (dz2 * (bx - ax) - dz1 * (cx - ax)) * part;
+        let slope = plane.slope();
         let end = self.width as f64 - 1.0;
         let mut at = first * FINE + half;
-        for y in first as usize..=last as usize {
+        for y in rows {
             let shift = self.shifts[y & (self.shifts.len() - 1)];
             let (mut left, mut right) = (0.0_f64, end);
             for edge in &edges {
@@ -73,12 +76,99 @@ impl RasterGrid<'_> {
             }
             let left = ceil(left);
             if left <= right {
-                let x = left * FINE + shift;
-                let z = f64::from(a.z) + along * (x - ax) + down * (at - ay);
-                row(y, left as usize..right as usize + 1, z as f32, (along * FINE) as f32);
+                let z = plane.depth(slope, left * FINE + shift, at);
+                row(y, left as usize..right as usize + 1, z, (slope[0] * FINE) as f32);
             }
             at += FINE;
         }
+    }
+
+    /// Calls `row` as [`cover`](Self::cover) does, for a triangle between two columns (1/256 sample) that is a few samples wide
+    /// and high. Most triangles of large models are, and to test each sample is faster than to compute the bounds of rows.
+    #[inline]
+    fn cover_small(
+        &self,
+        plane: &DepthPlane,
+        [leftmost, rightmost]: [f64; 2],
+        rows: RangeInclusive<usize>,
+        mut row: impl FnMut(usize, Range<usize>, f32, f32),
+    ) {
+        // Relative to the first corner, all numbers are small.
+        let [[ax, ay], b, c] = plane.corners;
+        let [bx, by, cx, cy] = [b[0] - ax, b[1] - ay, c[0] - ax, c[1] - ay].map(|offset| offset as i32);
+        let turn = if plane.area > 0.0 { 1 } else { -1 };
+        let edges = [[0, 0, bx, by], [bx, by, cx, cy], [cx, cy, 0, 0]].map(|edge| SmallEdge::new(edge, turn));
+        let (leftmost, rightmost, end) = (leftmost as i64, rightmost as i64, self.width as i64 - 1);
+        let (ax, ay) = (ax as i64, ay as i64);
+        let mut slope = None;
+        for y in rows {
+            let shift = self.shifts[y & (self.shifts.len() - 1)];
+            let whole = shift as i64;
+            let left = ((leftmost - whole + 255) >> 8).max(0);
+            let right = ((rightmost - whole) >> 8).min(end);
+            let down = (((y as i64) << 8) + 128 - ay) as i32;
+            let is_inside = |x: i64| {
+                let along = ((x << 8) + whole - ax) as i32;
+                edges.iter().all(|edge| edge.slope * along + edge.rise * down + edge.offset >= 0)
+            };
+            let Some(first) = (left..=right).find(|x| is_inside(*x)) else { continue };
+            let mut last = first;
+            while last < right && is_inside(last + 1) {
+                last += 1;
+            }
+            let slope = *slope.get_or_insert_with(|| plane.slope());
+            let z = plane.depth(slope, first as f64 * FINE + shift, y as f64 * FINE + FINE / 2.0);
+            row(y, first as usize..last as usize + 1, z, (slope[0] * FINE) as f32);
+        }
+    }
+}
+
+/// Width and height (samples) below which a triangle is small.
+const SMALL: f64 = 4.0;
+
+/// Plane through the corners of a triangle.
+struct DepthPlane {
+    /// Corners with their third coordinate.
+    triangle: [Vec3A; 3],
+    /// First two coordinates (1/256 sample) of the corners.
+    corners: [[f64; 2]; 3],
+    /// Twice the area, negative if the corners are counter-clockwise.
+    area: f64,
+}
+
+impl DepthPlane {
+    /// Returns the increments of the third coordinate along the first two (1/256 sample).
+    #[inline]
+    fn slope(&self) -> [f64; 2] {
+        let [a, b, c] = self.triangle;
+        let [[ax, ay], [bx, by], [cx, cy]] = self.corners;
+        let (dz1, dz2, part) = (f64::from(b.z - a.z), f64::from(c.z - a.z), 1.0 / self.area);
+        let along = (dz1 * (cy - ay) - dz2 * (by - ay)) * part;
+        [along, (dz2 * (bx - ax) - dz1 * (cx - ax)) * part]
+    }
+
+    /// Returns the third coordinate at `x`, `y` (1/256 sample), if it has this `slope`.
+    #[inline]
+    fn depth(&self, slope: [f64; 2], x: f64, y: f64) -> f32 {
+        let [ax, ay] = self.corners[0];
+        (f64::from(self.triangle[0].z) + slope[0] * (x - ax) + slope[1] * (y - ay)) as f32
+    }
+}
+
+/// Line through two corners of a small triangle, as a [`RasterEdge`] relative to the first corner of the triangle.
+struct SmallEdge {
+    slope: i32,
+    rise: i32,
+    offset: i32,
+}
+
+impl SmallEdge {
+    /// Creates the edge from the first to the second point of a triangle whose area has the sign `turn`.
+    #[inline]
+    fn new([x0, y0, x1, y1]: [i32; 4], turn: i32) -> Self {
+        let (dx, dy) = ((x1 - x0) * turn, (y1 - y0) * turn);
+        let own = i32::from(!(dy > 0 || (dy == 0 && dx > 0)));
+        Self { slope: -dy, rise: dx, offset: dy * x0 - dx * y0 - own }
     }
 }
 

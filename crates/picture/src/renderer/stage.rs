@@ -5,12 +5,12 @@
 
 use super::clip::clip;
 use super::extent::Extent;
-use super::points;
+use super::points::{self, Outlines, StageFrame, to_single};
 use super::texture::{MaterialImages, SampledTexture};
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_base::stop::Stop;
 use burgeon_scene::{Material, Mesh, Part, Scene};
-use glam::{Affine3A, DAffine3, DMat3, DVec3, Mat3A, Vec3, Vec3A};
+use glam::{Affine3A, DAffine3, DVec3, Mat3A, Vec3, Vec3A};
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -30,8 +30,7 @@ pub(super) struct Stage<'a> {
     /// Transform from the world to the stage.
     pub shrink: DAffine3,
     count: u32,
-    outlines: Vec<Vec<Vec3>>,
-    places: Vec<(usize, Affine3A)>,
+    outlines: Outlines<'a>,
     /// Cancellation signal. After cancellation nothing more is drawn.
     pub stop: &'a Stop,
 }
@@ -91,21 +90,12 @@ impl<'a> Stage<'a> {
         stop.check()?;
         let shared = extent.filter(|extent| is_shared && !extent.is_empty());
         let outlines = match shared {
-            Some(_) => vec![Vec::new(); scene.meshes.len()],
-            None => points::outlines(scene),
+            Some(_) => Outlines::empty(scene),
+            None => Outlines::new(scene),
         };
-        let turn = scene.upright.map_or(DMat3::IDENTITY, |upright| upright.rotation());
-        let corners = |instance: &'a burgeon_scene::Instance| {
-            let transform = DAffine3::from_mat3(turn) * instance.transform;
-            outlines[instance.mesh].iter().map(move |point| transform.transform_point3(point.as_dvec3()))
-        };
-        let (low, high) = points::bounds(scene.instances.iter().flat_map(corners));
-        let (center, radius) = extent.map_or_else(|| points::sphere(low, high), |extent| extent.sphere(turn));
-        let shrink = DAffine3::from_mat3_translation(turn * (1.0 / radius), -center / radius);
-
+        let StageFrame { shrink, bounds } = outlines.frame(extent);
         let closed: Vec<bool> = scene.meshes.par_iter().map(is_closed).collect();
         let mut draws = Vec::new();
-        let mut places = Vec::new();
         let mut count = 0_u32;
         for instance in &scene.instances {
             let exact = shrink * instance.transform;
@@ -113,7 +103,6 @@ impl<'a> Stage<'a> {
                 continue;
             }
             let place = to_single(&exact);
-            places.push((instance.mesh, place));
             let mirrored = place.matrix3.determinant() < 0.0;
             let turn = place.matrix3.inverse().transpose();
             for part in &scene.meshes[instance.mesh].parts {
@@ -144,10 +133,9 @@ impl<'a> Stage<'a> {
             }
         }
         draws.retain(|draw| !draw.part.triangles.is_empty());
-        let bounds = (((low - center) / radius).as_vec3a(), ((high - center) / radius).as_vec3a());
         let materials = &scene.materials;
         let mut stage =
-            Self { draws, materials, bounds, hull: Vec::new(), shrink, count, outlines, places, stop };
+            Self { draws, materials, bounds, hull: Vec::new(), shrink, count, outlines, stop };
         match shared {
             Some(extent) => stage.surround(&extent.points(&stage.shrink)),
             None => stage.hull = points::hull(stage.points(), bounds),
@@ -172,12 +160,7 @@ impl<'a> Stage<'a> {
 
     /// Returns points whose extent in every direction equals the model's extent to within a percent.
     pub(super) fn points(&self) -> impl Iterator<Item = Vec3A> {
-        self.places
-            .iter()
-            .flat_map(|(mesh, place)| {
-                self.outlines[*mesh].iter().map(|point| place.transform_point3a(Vec3A::from(*point)))
-            })
-            .filter(|point| point.is_finite())
+        self.outlines.placed(self.shrink)
     }
 
     /// Returns the numbers of all triangles, divided into ranges of work for one thread.
@@ -333,14 +316,8 @@ fn to_double(place: &Affine3A) -> DAffine3 {
     DAffine3 { matrix3: place.matrix3.as_dmat3(), translation: place.translation.as_dvec3() }
 }
 
-/// Converts `place` to single precision.
-fn to_single(place: &DAffine3) -> Affine3A {
-    let matrix = place.matrix3.as_mat3();
-    Affine3A { matrix3: Mat3A::from(matrix), translation: place.translation.as_vec3a() }
-}
-
 /// Fails if an index of the scene is out of range.
-fn check(scene: &Scene) -> Result<()> {
+pub(super) fn check(scene: &Scene) -> Result<()> {
     for (number, instance) in scene.instances.iter().enumerate() {
         if instance.mesh >= scene.meshes.len() {
             return Err(scene_error(format!(
