@@ -92,10 +92,6 @@ fn tile(
                 None => seen.push((number, 1.0, [px, py])),
             }
         });
-        if detail.pools_light {
-            // The ground comes last, so that all others can share their light.
-            seen.sort_by_key(|(number, ..)| number.is_none());
-        }
         let kept = limit_surfaces(&mut seen, detail.surfaces);
         let noise = noise(x as u32, y as u32, 1);
         let first = fragments.len();
@@ -130,17 +126,16 @@ fn tile(
             fragments.push(Fragment::new(surface, noise, fragments.len()));
             shares.push(FragmentShare { pixel, weight, ground });
         }
-        match detail.pools_light {
-            true => pool_light(&mut fragments[first..], first),
-            false => share::take_turns(&mut fragments[first..], light.sky.maps.len(), detail.turns, [x, y]),
+        if !detail.pools_light {
+            share::take_turns(&mut fragments[first..], light.sky.maps.len(), detail.turns, [x, y]);
         }
     }
+    let pixels: Vec<usize> = shares.iter().map(|share| share.pixel).collect();
     if detail.pools_light {
-        pool_ground(&mut fragments, &shares, size[0]);
+        share::pool(&mut fragments, &pixels, size, light.camera);
     }
     let mut gathered = light.gather(&fragments, fragments.len());
     if detail.turns > 1 {
-        let pixels: Vec<usize> = shares.iter().map(|share| share.pixel).collect();
         gathered = share::add_neighbours(&fragments, &pixels, &gathered, size, light.camera);
     }
     if shares.iter().any(|share| !share.ground) {
@@ -189,47 +184,6 @@ fn limit_surfaces(seen: &mut Vec<(Option<u32>, f32, [f32; 2])>, most: usize) -> 
     let kept = samples(seen);
     seen.extend(ground);
     all / kept
-}
-
-/// Lets the surfaces of a crowded pixel share one light, the first of which has the index `pool`: each gathers it from a
-/// part of the sky, because their colours are mixed anyway. The ground, which is the last fragment, gathers its own.
-fn pool_light(fragments: &mut [Fragment], pool: usize) {
-    let count = fragments.iter().filter(|fragment| fragment.surface.material.is_some()).count();
-    if count > 2 {
-        for (i, fragment) in fragments[..count].iter_mut().enumerate() {
-            fragment.crowd = (i, count);
-            (fragment.share, fragment.pool) = ((i, count), pool);
-        }
-    }
-}
-
-/// Lets the ground in each two by two pixels, if all of them show only the ground, share one light. A row of the tile has
-/// `width` pixels.
-fn pool_ground(fragments: &mut [Fragment], shares: &[FragmentShare], width: usize) {
-    let is_ground = |share: &FragmentShare| share.ground && share.weight > 0.999;
-    // Fragments are in the order of their pixels, so those of the rows of a square are found in turn.
-    let (mut upper, mut lower) = (0, 0);
-    while let Some(share) = shares.get(upper) {
-        let (x, y) = (share.pixel % width, share.pixel / width);
-        if x % 2 == 0 && y % 2 == 0 && is_ground(share) {
-            let below = share.pixel + width;
-            while shares.get(lower).is_some_and(|share| share.pixel < below) {
-                lower += 1;
-            }
-            let square = [upper, upper + 1, lower, lower + 1];
-            let pixels = [share.pixel, share.pixel + 1, below, below + 1];
-            let is_whole = x + 1 < width
-                && square.iter().zip(pixels).all(|(index, pixel)| {
-                    shares.get(*index).is_some_and(|share| share.pixel == pixel && is_ground(share))
-                });
-            if is_whole {
-                for (turn, index) in square.into_iter().enumerate() {
-                    (fragments[index].share, fragments[index].pool) = ((turn, square.len()), upper);
-                }
-            }
-        }
-        upper += 1;
-    }
 }
 
 /// Returns the background at pixel coordinates `place`: a linear colour times its opacity, and the opacity.

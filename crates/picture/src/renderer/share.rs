@@ -25,6 +25,77 @@ pub(super) fn take_turns(fragments: &mut [Fragment], maps: usize, turns: usize, 
     }
 }
 
+/// Lets the fragments of each two by two pixels that lie on one surface share one light: each gathers it from a part of the
+/// sky. So do those of crowded pixels, because their colours are mixed anyway. The fragments are those of a tile of `size`
+/// pixels, in order, and `pixels` are the pixels that they belong to.
+pub(super) fn pool(fragments: &mut [Fragment], pixels: &[usize], [width, height]: [usize; 2], camera: &Camera) {
+    let starts = starts(pixels, width * height);
+    let mut groups: Vec<Vec<usize>> = Vec::new();
+    for y in (0..height).step_by(2) {
+        for x in (0..width).step_by(2) {
+            let mut count = 0;
+            for row in y..(y + 2).min(height) {
+                for pixel in row * width + x..row * width + (x + 2).min(width) {
+                    let own = starts[pixel]..starts[pixel + 1];
+                    crowd(&mut fragments[own.clone()]);
+                    for index in own {
+                        let fragment = &fragments[index];
+                        let mut known = groups[..count].iter_mut();
+                        match known.find(|group| shares_light(fragment, &fragments[group[0]], camera)) {
+                            Some(group) => group.push(index),
+                            None => {
+                                if count == groups.len() {
+                                    groups.push(Vec::new());
+                                }
+                                groups[count].push(index);
+                                count += 1;
+                            }
+                        }
+                    }
+                }
+            }
+            for group in &mut groups[..count] {
+                for (turn, index) in group.iter().enumerate() {
+                    (fragments[*index].share, fragments[*index].pool) = ((turn, group.len()), group[0]);
+                }
+                group.clear();
+            }
+        }
+    }
+}
+
+/// Counts the surfaces of the model in a pixel that shows more than two.
+fn crowd(fragments: &mut [Fragment]) {
+    let of_model = || |fragment: &&mut Fragment| fragment.surface.material.is_some();
+    let count = fragments.iter_mut().filter(of_model()).count();
+    if count > 2 {
+        fragments.iter_mut().filter(of_model()).enumerate().for_each(|(i, fragment)| fragment.crowd = (i, count));
+    }
+}
+
+/// Returns true if a fragment gathers the same light as the `first` of others nearby.
+fn shares_light(fragment: &Fragment, first: &Fragment, camera: &Camera) -> bool {
+    if fragment.crowd.1 > 2 && first.crowd.1 > 2 {
+        return true;
+    }
+    let (own, other) = (&fragment.surface, &first.surface);
+    let near = NEAR * camera.footprint(own.position);
+    let aside = (other.position - own.position).dot(own.plane).abs();
+    own.material == other.material && aside < near && other.normal.dot(own.normal) > ALIKE
+}
+
+/// Returns the index of the first fragment of each of `count` pixels, and the number of fragments.
+fn starts(pixels: &[usize], count: usize) -> Vec<usize> {
+    let mut starts = vec![0; count + 1];
+    for pixel in pixels {
+        starts[pixel + 1] += 1;
+    }
+    for pixel in 0..count {
+        starts[pixel + 1] += starts[pixel];
+    }
+    starts
+}
+
 /// Returns the light of each of `fragments`: the sum of what it and its neighbours on the same surface have `gathered`.
 /// The fragments are those of a tile of `size` pixels, in order, and `pixels` are the pixels that they belong to.
 pub(super) fn add_neighbours(
@@ -34,13 +105,7 @@ pub(super) fn add_neighbours(
     [width, height]: [usize; 2],
     camera: &Camera,
 ) -> Vec<GatheredLight> {
-    let mut starts = vec![0; width * height + 1];
-    for pixel in pixels {
-        starts[pixel + 1] += 1;
-    }
-    for pixel in 0..width * height {
-        starts[pixel + 1] += starts[pixel];
-    }
+    let starts = starts(pixels, width * height);
     let range = |at: usize, most: usize| {
         // The window holds as many pixels of each turn.
         let first = at.saturating_sub(1 + at % 2).min(most.saturating_sub(WINDOW));
