@@ -6,7 +6,7 @@ use super::detail::RenderDetail;
 use super::shade::{Fragment, Light};
 use super::share;
 use super::sky::smooth;
-use super::surface::{SeenPoint, SurfacePoint};
+use super::surface::{SeenPoint, SeenTriangle, SurfacePoint};
 use super::tone;
 use super::visible::Visible;
 use burgeon_base::srgb_byte;
@@ -22,6 +22,17 @@ const TILE: [usize; 2] = [32, 16];
 /// Distances from the model, in the stage's units, up to which the ground shows its full shadow, and from which on it
 /// shows none.
 const FADE: [f32; 2] = [0.7, 2.4];
+
+/// Samples of a pixel that see the same triangle, or none.
+struct SampleGroup {
+    pixel: usize,
+    /// Number of the triangle.
+    number: Option<u32>,
+    /// Mean of the samples' pixel coordinates.
+    place: [f32; 2],
+    /// Fraction of the pixel.
+    weight: f32,
+}
 
 /// Contribution of a fragment to its pixel.
 struct FragmentShare {
@@ -78,35 +89,24 @@ fn tile(
     let mut fragments: Vec<Fragment> = Vec::new();
     let mut shares: Vec<FragmentShare> = Vec::new();
     let mut colors = vec![Vec4::ZERO; size[0] * size[1]];
+    let at = |pixel: usize| [corner[0] + pixel % size[0], corner[1] + pixel / size[0]];
+    let groups = group_samples(visible, detail, colors.len(), at);
     let mut hint = 0;
-    let mut seen: Vec<(Option<u32>, f32, [f32; 2])> = Vec::new();
+    let find =
+        |group: &SampleGroup| group.number.map(|number| SeenTriangle::find(light.stage, &mut hint, number));
+    let mut triangles: Vec<Option<SeenTriangle>> = groups.iter().map(find).collect();
+    triangles.iter_mut().flatten().for_each(SeenTriangle::read);
+    let mut pairs = groups.iter().zip(&triangles).peekable();
     for (pixel, color) in colors.iter_mut().enumerate() {
-        let (x, y) = (corner[0] + pixel % size[0], corner[1] + pixel / size[0]);
-        seen.clear();
-        visible.each_sample(x, y, |number, [px, py]| {
-            match seen.iter_mut().find(|(known, ..)| *known == number) {
-                Some((_, count, sum)) => {
-                    *count += 1.0;
-                    *sum = [sum[0] + px, sum[1] + py];
-                }
-                None => seen.push((number, 1.0, [px, py])),
-            }
-        });
-        let kept = limit_surfaces(&mut seen, detail.surfaces);
-        let noise = noise(x as u32, y as u32, 1);
         let first = fragments.len();
-        for (number, count, sum) in &seen {
-            let place = sum.map(|sum| sum / count);
-            let weight = count * if number.is_some() { kept } else { 1.0 } / detail.samples() as f32;
-            let seen = match number {
-                Some(number) => {
-                    let (stage, images) = (light.stage, light.images);
-                    Some(SeenPoint::at_pixel(stage, &mut hint, images, light.camera, *number, place))
-                }
-                None => None,
-            };
-            let (surface, ground) = match seen {
-                Some(seen) => {
+        let [x, y] = at(pixel);
+        let noise = noise(x as u32, y as u32, 1);
+        while let Some((&SampleGroup { weight, place, .. }, triangle)) =
+            pairs.next_if(|(group, _)| group.pixel == pixel)
+        {
+            let (surface, ground) = match triangle {
+                Some(triangle) => {
+                    let seen = SeenPoint::at_pixel(light.stage, light.images, light.camera, triangle, place);
                     // Triangles of one smooth surface are shaded as one fragment.
                     let alike = (first..fragments.len()).find(|i| fragments[*i].joins(&seen.surface));
                     if let Some(i) = alike {
@@ -163,6 +163,38 @@ fn tile(
         colors[share.pixel] += color * share.weight;
     }
     colors.into_iter().map(encode).collect()
+}
+
+/// Returns the samples of `count` pixels of a tile, which are `at` these coordinates, joined by triangle.
+fn group_samples(
+    visible: &Visible,
+    detail: &RenderDetail,
+    count: usize,
+    at: impl Fn(usize) -> [usize; 2],
+) -> Vec<SampleGroup> {
+    let mut groups = Vec::with_capacity(2 * count);
+    let mut seen: Vec<(Option<u32>, f32, [f32; 2])> = Vec::new();
+    for pixel in 0..count {
+        let [x, y] = at(pixel);
+        seen.clear();
+        visible.each_sample(x, y, |number, [px, py]| {
+            match seen.iter_mut().find(|(known, ..)| *known == number) {
+                Some((_, count, sum)) => {
+                    *count += 1.0;
+                    *sum = [sum[0] + px, sum[1] + py];
+                }
+                None => seen.push((number, 1.0, [px, py])),
+            }
+        });
+        let kept = limit_surfaces(&mut seen, detail.surfaces);
+        groups.extend(seen.iter().map(|(number, count, sum)| SampleGroup {
+            pixel,
+            number: *number,
+            place: sum.map(|sum| sum / count),
+            weight: count * if number.is_some() { kept } else { 1.0 } / detail.samples() as f32,
+        }));
+    }
+    groups
 }
 
 /// Keeps at most `most` surfaces of a pixel: the background, if it is seen, and those of the model with the most samples. The

@@ -127,17 +127,24 @@ pub(super) fn sphere(low: DVec3, high: DVec3) -> (DVec3, f64) {
 /// Returns a few thousand points whose convex hull contains `points`: the eight corners of the bounding boxes of the
 /// points in each cell of a coarse grid over `bounds`. The bits of a corner's number tell on which axes it is high.
 pub(super) fn hull(points: impl Iterator<Item = Vec3A>, bounds: (Vec3A, Vec3A)) -> Vec<Vec3A> {
-    let mut cells: Vec<Option<(Vec3A, Vec3A)>> = vec![None; CELLS * CELLS * CELLS];
+    let none = (Vec3A::INFINITY, Vec3A::NEG_INFINITY);
+    let mut cells = vec![none; CELLS * CELLS * CELLS];
     let last = CELLS as f32 - 1.0;
     let scale = CELLS as f32 / (bounds.1 - bounds.0).max(Vec3A::splat(1e-6));
-    // Iterating inside of the iterator is several times as fast, because it consists of nested ones.
+    // Successive points are mostly in one cell. Iterating inside of the iterator is several times as fast, because it consists of
+    // nested ones.
+    let (mut current, mut cell) = (0, none);
     points.for_each(|point| {
         let at = ((point - bounds.0) * scale).clamp(Vec3A::ZERO, Vec3A::splat(last));
         let index = (at.z as usize * CELLS + at.y as usize) * CELLS + at.x as usize;
-        let cell = &mut cells[index];
-        *cell = Some(cell.map_or((point, point), |(low, high)| (low.min(point), high.max(point))));
+        if index != current {
+            cells[current] = cell;
+            (current, cell) = (index, cells[index]);
+        }
+        cell = (cell.0.min(point), cell.1.max(point));
     });
-    let boxes = cells.into_iter().flatten();
+    cells[current] = cell;
+    let boxes = cells.into_iter().filter(|cell| *cell != none);
     boxes.flat_map(|(low, high)| (0..8).map(move |corner| pick(corner, low, high))).collect()
 }
 

@@ -28,7 +28,12 @@ pub(super) fn take_turns(fragments: &mut [Fragment], maps: usize, turns: usize, 
 /// Lets the fragments of each two by two pixels that lie on one surface share one light: each gathers it from a part of the
 /// sky. So do those of crowded pixels, because their colours are mixed anyway. The fragments are those of a tile of `size`
 /// pixels, in order, and `pixels` are the pixels that they belong to.
-pub(super) fn pool(fragments: &mut [Fragment], pixels: &[usize], [width, height]: [usize; 2], camera: &Camera) {
+pub(super) fn pool(
+    fragments: &mut [Fragment],
+    pixels: &[usize],
+    [width, height]: [usize; 2],
+    camera: &Camera,
+) {
     let starts = starts(pixels, width * height);
     let mut groups: Vec<Vec<usize>> = Vec::new();
     for y in (0..height).step_by(2) {
@@ -69,7 +74,11 @@ fn crowd(fragments: &mut [Fragment]) {
     let of_model = || |fragment: &&mut Fragment| fragment.surface.material.is_some();
     let count = fragments.iter_mut().filter(of_model()).count();
     if count > 2 {
-        fragments.iter_mut().filter(of_model()).enumerate().for_each(|(i, fragment)| fragment.crowd = (i, count));
+        fragments
+            .iter_mut()
+            .filter(of_model())
+            .enumerate()
+            .for_each(|(i, fragment)| fragment.crowd = (i, count));
     }
 }
 

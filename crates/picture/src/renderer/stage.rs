@@ -134,8 +134,7 @@ impl<'a> Stage<'a> {
         }
         draws.retain(|draw| !draw.part.triangles.is_empty());
         let materials = &scene.materials;
-        let mut stage =
-            Self { draws, materials, bounds, hull: Vec::new(), shrink, count, outlines, stop };
+        let mut stage = Self { draws, materials, bounds, hull: Vec::new(), shrink, count, outlines, stop };
         match shared {
             Some(extent) => stage.surround(&extent.points(&stage.shrink)),
             None => stage.hull = points::hull(stage.points(), bounds),

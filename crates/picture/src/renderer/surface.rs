@@ -59,15 +59,37 @@ impl StageTriangle {
     }
 }
 
+/// Triangle that a pixel sees.
+pub(super) struct SeenTriangle<'a> {
+    draw: &'a DrawCall<'a>,
+    corners: [usize; 3],
+    /// Positions and normals of the corners in the mesh's coordinates.
+    positions: [Vec3; 3],
+    normals: [Vec3; 3],
+}
+
+impl<'a> SeenTriangle<'a> {
+    /// Finds triangle `number`. The `hint` is the index of the draw that was found last, where the search begins.
+    pub(super) fn find(stage: &'a Stage<'a>, hint: &mut usize, number: u32) -> Self {
+        let (draw, index) = stage.find_near(number, hint);
+        let corners = draw.part.triangles.get(index).unwrap_or_default().map(|i| i as usize);
+        Self { draw, corners, positions: [Vec3::ZERO; 3], normals: [Vec3::ZERO; 3] }
+    }
+
+    /// Reads the corners. Triangles are read one directly after the other, so that the waits for memory overlap.
+    pub(super) fn read(&mut self) {
+        let part = self.draw.part;
+        self.positions = self.corners.map(|i| part.positions.get(i).copied().unwrap_or_default());
+        self.normals = self.corners.map(|i| part.normals.get(i).map_or(Vec3::ZERO, |normal| normal.vector()));
+    }
+}
+
 /// Point of a triangle that a pixel sees, before its texture is read.
 pub(super) struct SeenPoint<'a> {
     /// Point with the colour of its material.
     pub surface: SurfacePoint,
     images: &'a MaterialImages,
-    draw: &'a DrawCall<'a>,
-    corners: [usize; 3],
-    /// Normals of the corners in the mesh's coordinates.
-    normals: [Vec3; 3],
+    seen: &'a SeenTriangle<'a>,
     triangle: StageTriangle,
     /// Weights of the second and third corner, and the same within the triangle.
     exact: Vec2,
@@ -76,20 +98,16 @@ pub(super) struct SeenPoint<'a> {
 }
 
 impl<'a> SeenPoint<'a> {
-    /// Returns the point of triangle `number` at pixel coordinates `place`. The `hint` is the index of the draw that was found
-    /// last, where the search begins.
+    /// Returns the point of a triangle at pixel coordinates `place`.
     pub(super) fn at_pixel(
-        stage: &'a Stage<'a>,
-        hint: &mut usize,
+        stage: &Stage<'_>,
         images: &'a [MaterialImages],
         camera: &Camera,
-        number: u32,
+        seen: &'a SeenTriangle<'a>,
         place: [f32; 2],
     ) -> Self {
-        let (draw, index) = stage.find_near(number, hint);
-        let part = draw.part;
-        let triangle = part.triangles.get(index).unwrap_or_default().map(|i| i as usize);
-        let [a, b, c] = triangle.map(|i| draw.place.transform_point3a(Vec3A::from(part.positions[i])));
+        let (draw, part) = (seen.draw, seen.draw.part);
+        let [a, b, c] = seen.positions.map(|at| draw.place.transform_point3a(Vec3A::from(at)));
         let corners = StageTriangle { a, ab: b - a, ac: c - a, cross: (b - a).cross(c - a) };
         let exact = corners.weights(camera.ray(place[0], place[1]));
         // The centre of the samples may be slightly outside the triangle.
@@ -102,9 +120,8 @@ impl<'a> SeenPoint<'a> {
         let plane = outward.normalize_or(view);
         let side = if plane.dot(view) < 0.0 { -1.0 } else { 1.0 };
         let weights = [1.0 - inside.x - inside.y, inside.x, inside.y];
-        let local = |i: usize| part.normals.get(i).map_or(Vec3::ZERO, |normal| normal.vector());
-        let normals = triangle.map(local);
-        let blended: Vec3 = normals.into_iter().zip(weights).map(|(normal, weight)| normal * weight).sum();
+        let blended: Vec3 =
+            seen.normals.into_iter().zip(weights).map(|(normal, weight)| normal * weight).sum();
         let normal = (draw.turn * Vec3A::from(blended)).normalize_or(plane) * side;
 
         let material = &stage.materials[part.material];
@@ -125,18 +142,18 @@ impl<'a> SeenPoint<'a> {
             thin: material.double_sided && material.metallic < 0.5,
         };
         let images = &images[part.material];
-        Self { surface, images, draw, corners: triangle, normals, triangle: corners, exact, inside, place }
+        Self { surface, images, seen, triangle: corners, exact, inside, place }
     }
 
     /// Returns the point with the colour of its texture and the slope of its normal map, on the smooth surface.
     pub(super) fn finish(self, camera: &Camera) -> SurfacePoint {
         let mut surface = self.surface.clone();
-        let (part, StageTriangle { a, ab, ac, .. }) = (self.draw.part, self.triangle);
+        let (part, StageTriangle { a, ab, ac, .. }) = (self.seen.draw.part, self.triangle);
         let side = if surface.plane.dot(self.triangle.cross) < 0.0 { -1.0 } else { 1.0 };
-        let side = if self.draw.mirrored { -side } else { side };
-        let normals = self
-            .normals
-            .map(|local| (self.draw.turn * Vec3A::from(local)).normalize_or(surface.plane * side) * side);
+        let side = if self.seen.draw.mirrored { -side } else { side };
+        let normals = self.seen.normals.map(|local| {
+            (self.seen.draw.turn * Vec3A::from(local)).normalize_or(surface.plane * side) * side
+        });
         let weights = [1.0 - self.inside.x - self.inside.y, self.inside.x, self.inside.y];
         let corners = [a, a + ab, a + ac];
         surface.rounded = round_position(surface.position, corners, normals, weights);
@@ -169,7 +186,7 @@ impl<'a> SeenPoint<'a> {
     /// along two edges of the triangle. `uv` returns those of a vertex.
     fn footprint(&self, camera: &Camera, uv: impl Fn(usize) -> Vec2) -> ([Vec2; 3], [Vec2; 2]) {
         let [origin, u, v] = {
-            let [a, b, c] = self.corners.map(uv);
+            let [a, b, c] = self.seen.corners.map(uv);
             [a, b - a, c - a]
         };
         let uv = |weights: Vec2| origin + u * weights.x + v * weights.y;
