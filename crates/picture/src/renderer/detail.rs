@@ -19,8 +19,8 @@ pub(super) struct RenderDetail {
     pub sun_side: f32,
     /// Number of lookups in the sun's map for one pixel.
     pub sun_taps: usize,
-    /// Set if the surfaces of a crowded pixel share the sky's light that they gather, as do neighbouring pixels of the
-    /// ground.
+    /// Set if the two by two pixels that see one surface share the sky's light, as do crowded pixels, and if the surfaces of a
+    /// crowded pixel share the lookups in the sun's map.
     pub pools_light: bool,
     /// Number of neighbouring pixels among which the maps of the sky are divided: 1, or the square of 2 or 4. The pixels
     /// then share the light that they gather.
@@ -46,8 +46,8 @@ impl RenderDetail {
                 sky_points: true,
                 sun_side: 1024.0,
                 sun_taps: 10,
-                pools_light: false,
-                turns: 4,
+                pools_light: true,
+                turns: 1,
                 surfaces: 2,
                 traces: false,
             },

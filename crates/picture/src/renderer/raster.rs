@@ -238,6 +238,7 @@ fn ceil(x: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use proptest::prelude::*;
 
     fn counts(triangles: &[[Vec3A; 3]], shifts: &[f64]) -> Vec<u32> {
         let grid = RasterGrid { width: 40, rows: 0..40, shifts };
@@ -277,5 +278,46 @@ mod tests {
             }
         });
         assert!(seen > 500);
+    }
+
+    proptest! {
+        #[test]
+        fn a_small_triangle_covers_the_samples_inside(
+            corners in proptest::array::uniform3([-1000_i64..6000, -1000_i64..6000]),
+            near in proptest::array::uniform3([0_i64..1023, 0_i64..1023]),
+            is_near in any::<bool>(),
+        ) {
+            // Corners in 1/256 samples, of which those near the first are a small triangle.
+            let corners = if is_near { near.map(|[x, y]| [corners[0][0] + x, corners[0][1] + y]) } else { corners };
+            let triangle = corners.map(|[x, y]| Vec3A::new(x as f32 / 256.0, y as f32 / 256.0, (x + y) as f32));
+            let shifts = [32.0, 160.0, 96.0, 224.0];
+            let grid = RasterGrid { width: 20, rows: 3..20, shifts: &shifts };
+            let mut covered = Vec::new();
+            grid.cover(triangle, |y, xs, z, growth| {
+                for (i, x) in xs.enumerate() {
+                    covered.push([x, y]);
+                    let expected = x as f64 * 256.0 + shifts[y % 4] + y as f64 * 256.0 + 128.0;
+                    assert!((f64::from(z + growth * i as f32) - expected).abs() < 0.1);
+                }
+            });
+            let [a, b, c] = corners;
+            let turn = |a: [i64; 2], b: [i64; 2], c: [i64; 2]| {
+                (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+            };
+            let area = turn(a, b, c);
+            let mut expected = Vec::new();
+            for (y, x) in (3..20_usize).flat_map(|y| (0..20_usize).map(move |x| (y, x))) {
+                let at = [x as i64 * 256 + shifts[y % 4] as i64, y as i64 * 256 + 128];
+                let is_inside = [(a, b), (b, c), (c, a)].iter().all(|(from, to)| {
+                    let (side, up, along) = (turn(*from, *to, at) * area.signum(), to[1] - from[1], to[0] - from[0]);
+                    let (up, along) = (up * area.signum(), along * area.signum());
+                    side > 0 || (side == 0 && (up > 0 || (up == 0 && along > 0)))
+                });
+                if area != 0 && is_inside {
+                    expected.push([x, y]);
+                }
+            }
+            prop_assert_eq!(covered, expected);
+        }
     }
 }

@@ -1,5 +1,5 @@
-//! Light that neighbouring pixels share: each gathers it from a part of the sky's maps, and takes the sum of its
-//! neighbours on the same surface.
+//! Light that neighbouring pixels share. Each gathers it from a part of the sky's maps, and takes the sum: that of the two by
+//! two pixels on the same surface, or, which is smoother and takes longer, that of its own neighbours.
 
 use super::camera::Camera;
 use super::shade::{Fragment, GatheredLight};
@@ -171,5 +171,43 @@ mod tests {
             }
             assert!(taken.iter().all(|count| *count == 1), "{maps} maps, {turns} turns, {crowd}: {taken:?}");
         }
+    }
+
+    #[test]
+    fn two_by_two_pixels_on_one_surface_take_every_map_once_and_another_surface_takes_its_own() {
+        let camera =
+            Camera::fit([Vec3A::ZERO].into_iter(), Viewpoint { azimuth: 0.0, elevation: 1.0 }, [8, 8]);
+        // Five by three pixels, of which number 6 sees another surface far above the others.
+        let pixels: Vec<usize> = (0..15).collect();
+        let height = |pixel: usize| if pixel == 6 { 0.5 } else { 0.0 };
+        let mut fragments: Vec<Fragment> =
+            pixels.iter().map(|pixel| fragment(&camera, Vec3A::Z * height(*pixel), *pixel)).collect();
+        pool(&mut fragments, &pixels, [5, 3], &camera);
+        for (pools, count) in
+            [([0, 1, 5].as_slice(), 3), (&[6], 1), (&[2, 3, 7, 8], 4), (&[4, 9], 2), (&[14], 1)]
+        {
+            let mut turns: Vec<usize> = pools.iter().map(|pixel| fragments[*pixel].share.0).collect();
+            turns.sort_unstable();
+            assert_eq!(turns, (0..count).collect::<Vec<_>>());
+            let is_pooled =
+                |pixel: &usize| (fragments[*pixel].pool, fragments[*pixel].share.1) == (pools[0], count);
+            assert!(pools.iter().all(is_pooled), "{pools:?}");
+        }
+    }
+
+    #[test]
+    fn crowded_pixels_share_one_light_except_for_the_ground_behind_them() {
+        let camera =
+            Camera::fit([Vec3A::ZERO].into_iter(), Viewpoint { azimuth: 0.0, elevation: 1.0 }, [8, 8]);
+        let pixels = [0, 0, 0, 0, 1, 1, 1];
+        let mut fragments: Vec<Fragment> =
+            (0..7).map(|i| fragment(&camera, Vec3A::Z * (i % 4) as f32 * 0.2, i)).collect();
+        fragments.iter_mut().enumerate().for_each(|(i, fragment)| {
+            fragment.surface.material = (i != 3).then_some(i);
+        });
+        pool(&mut fragments, &pixels, [2, 1], &camera);
+        let pools: Vec<usize> = fragments.iter().map(|fragment| fragment.pool).collect();
+        assert_eq!(pools, [0, 0, 0, 3, 0, 0, 0]);
+        assert_eq!((fragments[3].share, fragments[6].share, fragments[5].crowd), ((0, 1), (5, 6), (1, 3)));
     }
 }
