@@ -563,6 +563,8 @@ turtle_module("EndPolygon", "end_polygon")
 turtle_module("Sphere", "sphere", "radius")
 -- Bends towards the tropism with each step.
 turtle_module("Elasticity", "elasticity", "elasticity")
+-- _ of cpfg: tilts towards the simple tropism with each step.
+turtle_module("SimpleElasticity", "simple_elasticity", "elasticity?")
 -- ~
 names.Place = module("Place", "model", "scale?")
 __interpretation("turtle", "Place", "place")

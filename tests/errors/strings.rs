@@ -42,22 +42,22 @@ fn an_error_says_how_a_string_was_split() {
       help: declare it: local o = module("o"), or write the successor as a body of Lua with return
     s:rule("F", "F?F")
       rule F: read as F ? F: ? is no module
-      help: the symbols of the turtle are F G f + - & ^ \ / | $ ! # { } . ; , ~ % @O @v [ ]; declare modules with letters, or write the successor as a body of Lua with return
+      help: the symbols of the turtle are F G f + - & ^ \ / | $ ! # { } . ; , ~ % _ @O @v [ ]; declare modules with letters, or write the successor as a body of Lua with return
     s:rule("F", "F = 2")
       rule F: read as F = 2: = is no module
-      help: the symbols of the turtle are F G f + - & ^ \ / | $ ! # { } . ; , ~ % @O @v [ ]; declare modules with letters, or write the successor as a body of Lua with return
+      help: the symbols of the turtle are F G f + - & ^ \ / | $ ! # { } . ; , ~ % _ @O @v [ ]; declare modules with letters, or write the successor as a body of Lua with return
     s:rule("F", "local x = 1")
       rule F: read as l o c a l x = 1: l is no module
       help: declare it: local l = module("l"), or write the successor as a body of Lua with return
     s:rule("F", "F*")
       rule F: read as F *: * is no module
-      help: the symbols of the turtle are F G f + - & ^ \ / | $ ! # { } . ; , ~ % @O @v [ ]; declare modules with letters, or write the successor as a body of Lua with return
+      help: the symbols of the turtle are F G f + - & ^ \ / | $ ! # { } . ; , ~ % _ @O @v [ ]; declare modules with letters, or write the successor as a body of Lua with return
     s:rule("F", "F7")
       rule F: read as F 7: 7 is no module
       help: declare it: local _7 = module("_7"), or write the successor as a body of Lua with return
     s:rule("F", "F < B")
       rule F: read as F < B: < is no module
-      help: the symbols of the turtle are F G f + - & ^ \ / | $ ! # { } . ; , ~ % @O @v [ ]; declare modules with letters, or write the successor as a body of Lua with return
+      help: the symbols of the turtle are F G f + - & ^ \ / | $ ! # { } . ; , ~ % _ @O @v [ ]; declare modules with letters, or write the successor as a body of Lua with return
     s:rule("F", "F[+F")
       rule F: read as F [ + F: a branch is not closed
       help: close it with ]
@@ -232,7 +232,7 @@ fn abop_refuses_what_it_does_not_know() {
       help: give it to the object: object = turtle({ angle = 25.7 })
     abop({ axiom = "F", F = "F?" }):derive(1)
       rule F: read as F ?: ? is no module
-      help: the symbols of the turtle are F G f + - & ^ \ / | $ ! # { } . ; , ~ % @O @v [ ]; declare modules with letters, or write the successor as a body of Lua with return
+      help: the symbols of the turtle are F G f + - & ^ \ / | $ ! # { } . ; , ~ % _ @O @v [ ]; declare modules with letters, or write the successor as a body of Lua with return
     abop({ axiom = "Q" }):derive(1)
       read as Q: Q has no arguments, but it was declared as Q(n)
       help: write its arguments in brackets, such as Q(n)

@@ -5,21 +5,34 @@ use proptest::prelude::*;
 
 use super::scripts::{all_chains, chain, try_run};
 
-/// Rules whose guard is `condition`, once as it is and once after a statement.
-fn both(axiom: &str, pattern: &str, parameters: &str, condition: &str) -> [String; 2] {
-    ["", "local _ = 1 "].map(|statement| {
+/// Rules whose guard is `condition` after `locals`, and whose successor is `modules` after them, once as they are and once after a
+/// statement.
+fn rules(
+    axiom: &str,
+    pattern: &str,
+    parameters: &str,
+    condition: &str,
+    modules: &str,
+    locals: &str,
+) -> [String; 2] {
+    ["", "do end "].map(|statement| {
         format!(
             r#"
             local A, B = module("A", "x", "y?"), module("B", "z", "w?")
             local limit, factor, no = 2, 0.5, nil
             local s = lsystem()
             s:axiom({axiom})
-            s:rule("{pattern}", {{ when = function(_, {parameters}) {statement}return {condition} end }},
-              function(_, {parameters}) return B(9, x / 2) end)
+            s:rule("{pattern}", {{ when = function(_, {parameters}) {statement}{locals}return {condition} end }},
+              function(_, {parameters}) {statement}{locals}return {modules} end)
             s:rule("{pattern}", function(_, {parameters}) return A(8, limit) end)
             s:derive(2)"#
         )
     })
+}
+
+/// Rules whose guard is `condition`, once as it is and once after a statement.
+fn both(axiom: &str, pattern: &str, parameters: &str, condition: &str) -> [String; 2] {
+    rules(axiom, pattern, parameters, condition, "B(9, x / 2)", "")
 }
 
 /// Returns the chain, or the error.
@@ -30,9 +43,9 @@ fn outcome(script: &str) -> Result<String, String> {
     Ok(all_chains(&run))
 }
 
-/// Generates numbers as Lua text.
-fn number() -> impl Strategy<Value = String> {
-    let variable = prop::sample::select(vec!["x", "y", "z", "w", "limit", "factor"]).prop_map(str::to_owned);
+/// Generates numbers as Lua text, without locals or with the locals `p` and `q`.
+fn number_of(names: &'static [&'static str]) -> impl Strategy<Value = String> {
+    let variable = prop::sample::select(names).prop_map(str::to_owned);
     let constant =
         prop::sample::select(vec!["0", "1", "-1.5", "3", "0x4", "1e300", "0.1"]).prop_map(str::to_owned);
     prop_oneof![3 => variable, 1 => constant].prop_recursive(3, 12, 2, |inner| {
@@ -45,7 +58,15 @@ fn number() -> impl Strategy<Value = String> {
     })
 }
 
+fn number() -> impl Strategy<Value = String> {
+    number_of(&["x", "y", "z", "w", "limit", "factor"])
+}
+
 fn condition() -> impl Strategy<Value = String> {
+    condition_of(number)
+}
+
+fn condition_of<S: Strategy<Value = String> + 'static>(number: fn() -> S) -> impl Strategy<Value = String> {
     let operator = prop::sample::select(vec!["<", "<=", ">", ">=", "==", "~="]);
     let comparison =
         (number(), operator, number()).prop_map(|(a, operator, b)| format!("{a} {operator} {b}"));
@@ -56,6 +77,20 @@ fn condition() -> impl Strategy<Value = String> {
             inner.prop_map(|a| format!("not ({a})")),
         ]
     })
+}
+
+/// Generates up to three statements that declare locals, of which some shadow a parameter, a variable or an earlier one.
+fn locals() -> impl Strategy<Value = String> {
+    let name = || prop::sample::select(vec!["p", "q", "x", "z", "limit", "this"]);
+    let one = (name(), number_with_locals()).prop_map(|(name, value)| format!("local {name} = {value} "));
+    let two = (name(), name(), number_with_locals(), number_with_locals())
+        .prop_map(|(a, b, c, d)| format!("local {a}, {b} = {c}, {d} "));
+    prop::collection::vec(prop_oneof![2 => one, 1 => two], 0..4).prop_map(|locals| locals.concat())
+}
+
+/// Generates numbers that read parameters, variables and locals. The first local of a name reads a variable outside.
+fn number_with_locals() -> impl Strategy<Value = String> {
+    number_of(&["x", "y", "z", "w", "limit", "p", "p", "q", "q"])
 }
 
 proptest! {
@@ -77,6 +112,53 @@ proptest! {
             prop_assert_eq!(quick, by_lua, "{} {}", pattern, condition);
         }
     }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, ..ProptestConfig::default() })]
+    #[test]
+    fn formulas_of_locals_have_the_values_of_lua(
+        locals in locals(), condition in condition_of(number_with_locals), first in number_with_locals(), second in number_with_locals(),
+        numbers in prop::collection::vec((-3..4i32, 0..8u32), 12), other in prop::sample::select(vec!["", ", A(true, 1)", ", A(0 / 0, 2), B(1, 1)"])
+    ) {
+        let module = |(index, (x, y)): (usize, (i32, u32))| {
+            format!("{}({}, {})", if index % 3 == 1 { "B" } else { "A" }, f64::from(x) / 2.0, f64::from(y) / 4.0)
+        };
+        let axiom = numbers.into_iter().enumerate().map(module).collect::<Vec<_>>().join(", ") + other;
+        let modules = format!("A({first}, {second}), {{ B({second} - p, q) }}");
+        for (pattern, parameters) in [("A(x, y) > B(z, w)", "x, y, z, w"), ("B(z, w) < A(x, y)", "z, w, x, y")] {
+            let scripts = rules(&axiom, pattern, parameters, &condition, &modules, &locals);
+            let [quick, by_lua] = scripts.map(|script| outcome(&script.replace("factor, no =", "p, q =").replace("0.5, nil", "0.5, -1")));
+            prop_assert_eq!(quick, by_lua, "{} {} {} {}", pattern, locals, condition, modules);
+        }
+    }
+}
+
+#[test]
+fn locals_that_are_no_numbers_behave_as_in_lua() {
+    let mut errors = 0;
+    for axiom in ["A(1, 2)", "A(1)", "A(\"a\", 1)", "A(0 / 0, 1)", "A(vec(1, 2, 3), 1)", "A(1, 0)"] {
+        for locals in [
+            "local p = x + y ",
+            "local p, q = x, y ",
+            "local p = x local q = p / y ",
+            "local p = no ",
+            "local p, x = x, missing ",
+            "local x = y - x ",
+            "local B = x ",
+            "local p = -x local p = 3 ",
+        ] {
+            for (condition, modules) in
+                [("x == x", "B(x)"), ("p == 3", "B(p, y)"), ("x ~= 7", "B(9, p)"), ("p < 5", "A(x, p)")]
+            {
+                let [quick, by_lua] = rules(axiom, "A(x, y)", "x, y", condition, modules, locals)
+                    .map(|script| outcome(&script));
+                errors += usize::from(quick.is_err());
+                assert_eq!(quick, by_lua, "{axiom} {locals} {condition} {modules}");
+            }
+        }
+    }
+    assert!((40..150).contains(&errors), "{errors}");
 }
 
 #[test]
@@ -116,7 +198,7 @@ fn a_guard_compares_with_the_values_of_its_variables_when_the_derivation_begins(
 
 /// Rules that return `modules`, once as they are and once after a statement.
 fn successors(axiom: &str, modules: &str) -> [String; 2] {
-    ["", "local _ = 1 "].map(|statement| {
+    ["", "do end "].map(|statement| {
         format!(
             r#"
             local A, B = module("A", "x", "y?"), module("B", "z?")

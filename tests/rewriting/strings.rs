@@ -266,6 +266,45 @@ fn abop_declares_letters_and_keeps_those_of_the_script() {
     assert!(!drawn.scene.meshes.is_empty(), "the turtle draws");
 }
 
+/// Returns the heading of the last module of `axiom`, for a turtle along x whose simple tropism points to (0, -0.6, 0.8).
+fn heading_after(axiom: &str) -> [f64; 3] {
+    let found = chain(&format!(
+        "local H = module('H', 'x', 'y', 'z')
+         local pen = turtle({{ heading = {{ 1, 0, 0 }}, simple_tropism = {{ 0, -3, 4 }}, simple_increment = 0.25 }})
+         abop({{ axiom = '{axiom}', X = 'local h = this:heading() return H(h.x, h.y, h.z)', object = pen }}):derive(1)"
+    ));
+    let (_, values) = found.rsplit_once("H(").expect("the heading");
+    let values: Vec<f64> =
+        values.trim_end_matches(')').split(',').map(|value| value.parse().expect("a number")).collect();
+    values.try_into().expect("three numbers")
+}
+
+#[test]
+fn an_underscore_sets_or_increases_the_elasticity_of_the_simple_tropism_as_in_cpfg() {
+    // With an elasticity of 0.5, the sines of the two angles are 0.3 towards the up vector, and 0.4 towards the left.
+    let bent = [(0.91_f64 * 0.84).sqrt(), -0.3 * 0.84_f64.sqrt(), 0.4];
+    for (axiom, expected) in [
+        ("_(0.5)X", [1.0, 0.0, 0.0]),
+        ("_(0.5)FX", bent),
+        ("_(0.5)fX", bent),
+        ("__fX", bent),
+        ("_(9)_(0.25)_fX", bent),
+        ("[_(0.5)]fX", [1.0, 0.0, 0.0]),
+    ] {
+        let found = heading_after(axiom);
+        let near = found.iter().zip(expected).all(|(found, expected)| (found - expected).abs() < 1e-9);
+        assert!(near, "{axiom}: {found:?} instead of {expected:?}");
+    }
+    assert_eq!(chain("abop({ axiom = 'AF_F', ['_ < F'] = 'A' }):derive(1)"), "A F SimpleElasticity A");
+    // A name that contains an underscore stays a name.
+    assert_eq!(
+        chain("local A_b = module('A_b') abop({ axiom = 'A_bA_b', A_b = 'F_F' }):derive(1)")
+            .matches('F')
+            .count(),
+        4
+    );
+}
+
 #[test]
 fn abop_tries_longer_contexts_first() {
     let keys = ["B = 'D'", "['A < B'] = 'E'", "['A < B > C'] = 'K'"];

@@ -16,6 +16,7 @@ pub const EXAMPLES: &[ScriptExample] = examples! {
     "Pitch" shows "Pitch" "Down" "Up";
     "Place" shows "Place";
     "Roll" shows "Roll" "RollLeft" "RollRight";
+    "SimpleElasticity" shows "SimpleElasticity";
     "Sphere" shows "Sphere";
     "Turn" shows "Turn" "Left" "Right";
     "TurnAround" shows "TurnAround";

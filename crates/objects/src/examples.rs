@@ -68,6 +68,8 @@ pub const EXAMPLES: &[ScriptExample] = examples! {
     "turtle/roll" shows "turtle:roll" "turtle:roll_back";
     "turtle/scale" shows "turtle:scale";
     "turtle/shape" shows "turtle:shape";
+    "turtle/simple_tropism" shows "turtle:simple_tropism" "turtle:simple_elasticity" "turtle.simple_tropism"
+        "turtle.simple_elasticity" "turtle.simple_increment";
     "turtle/sphere" shows "turtle:sphere";
     "turtle/surface" shows "turtle:surface";
     "turtle/tropism" shows "turtle:tropism" "turtle:elasticity" "turtle.tropism" "turtle.elasticity";

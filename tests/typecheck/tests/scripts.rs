@@ -99,6 +99,7 @@ fn what_luau_cannot_know_is_allowed() {
         "local s = lsystem({ object = footprint }) s:interpret(\"A\", function(this) this:walls():roof({ kind = \"hip\" }) end)",
         "local s = lsystem({ object = turtle(), interpret = \"last\" }) s:axiom(F(1), { Turn(3), F() })",
         "local s = lsystem({ seed = 3 }) s:rule(\"A(x)\", { weight = 2 }, function(this, x) return F(x - 1), { F(x) } end)",
+        "local s = lsystem() s:rule(\"A\", { weight = 2 }, \"return B()\" :: any):decompose(\"A\", { weight = 1 }, \"F\" :: any)",
         "local t = lsystem({ object = turtle }) local d = t:derive() t:interpret(\"A\", function(this) this:place(d) end)",
         "local v = vec(1, 2) * 3 + vec({ 1, 2 }) print(v.x, v[2], -v:unit(), lerp(v, v, 0.5), lerp(1, 2, 0.5))",
         "local p = param(\"p\", { default = true }) if p then print(param(\"n\", { default = 3 }) + 1) end",

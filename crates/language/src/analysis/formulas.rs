@@ -1,7 +1,7 @@
 //! Functions of rules that only calculate with numbers: guards that compare them, and successors whose parameters are formulas.
 
-use full_moon::ast::{BinOp, Call, Expression, Field, FunctionArgs, FunctionBody, LastStmt, Parameter};
-use full_moon::ast::{Suffix, UnOp, Var};
+use full_moon::ast::{BinOp, Call, Expression, Field, FunctionArgs, FunctionBody, LastStmt, LocalAssignment};
+use full_moon::ast::{Parameter, Prefix, Stmt, Suffix, UnOp, Var};
 
 use super::syntax::text_of;
 
@@ -25,26 +25,37 @@ enum ValueType {
 }
 
 /// Returns the condition that a function does nothing but return: comparisons of sums, products and quotients of its parameters
-/// after the first, numbers and variables.
+/// after the first, numbers, variables and its own locals.
 pub(super) fn condition_of(body: &FunctionBody) -> Option<FormulaText> {
     let (mut writer, returned) = FormulaWriter::begin(body)?;
     let [value] = returned.as_slice() else { return None };
     writer.formula(value, ValueType::Boolean)?;
-    Some(writer.end())
+    writer.end()
 }
 
 /// Returns the parameters of the modules that a function does nothing but return, if they are sums, products and quotients of its
-/// parameters after the first, numbers and variables.
+/// parameters after the first, numbers, variables and its own locals.
 pub(super) fn production_of(body: &FunctionBody) -> Option<FormulaText> {
     let (mut writer, returned) = FormulaWriter::begin(body)?;
     returned.into_iter().try_for_each(|value| writer.module(value))?;
-    Some(writer.end())
+    writer.end()
+}
+
+/// Local variable of a function, which no statement assigns again. A formula contains its value instead of its name.
+struct FormulaLocal {
+    name: String,
+    /// Its value in postfix notation.
+    words: Vec<String>,
+    of: ValueType,
+    is_read: bool,
 }
 
 /// Writer of the formulas of a function.
 struct FormulaWriter {
     /// Parameters of the function, with `this`.
     parameters: Vec<String>,
+    /// Local variables so far, of which the last one with a name hides the others.
+    locals: Vec<FormulaLocal>,
     /// Formulas so far.
     formulas: Vec<String>,
     /// Words of the present formula.
@@ -62,13 +73,36 @@ impl FormulaWriter {
             parameters.push(text_of(name));
         }
         let Some(LastStmt::Return(last)) = body.block().last_stmt() else { return None };
-        let is_alone = body.block().stmts().next().is_none();
-        let writer = Self { parameters, formulas: Vec::new(), words: Vec::new(), outer: Vec::new() };
-        is_alone.then(|| (writer, last.returns().iter().collect()))
+        let (locals, formulas, words, outer) = Default::default();
+        let mut writer = Self { parameters, locals, formulas, words, outer };
+        for statement in body.block().stmts() {
+            let Stmt::LocalAssignment(assignment) = statement else { return None };
+            writer.assign(assignment)?;
+        }
+        Some((writer, last.returns().iter().collect()))
     }
 
-    fn end(self) -> FormulaText {
-        FormulaText { code: self.formulas.join(";"), outer: self.outer }
+    /// Returns the formulas; `None` if they do not read a local variable, whose value can be an error in Lua.
+    fn end(self) -> Option<FormulaText> {
+        let is_complete = self.locals.iter().all(|local| local.is_read);
+        is_complete.then(|| FormulaText { code: self.formulas.join(";"), outer: self.outer })
+    }
+
+    /// Adds local variables; `None` if they have others than numbers and comparisons, or too few or too many.
+    fn assign(&mut self, assignment: &LocalAssignment) -> Option<()> {
+        let (names, values) = (assignment.names(), assignment.expressions());
+        if names.len() != values.len() {
+            return None;
+        }
+        let mut locals = Vec::with_capacity(names.len());
+        for (name, value) in names.iter().zip(values) {
+            let of = self.write(value)?;
+            let words = std::mem::take(&mut self.words);
+            locals.push(FormulaLocal { name: text_of(name), words, of, is_read: false });
+        }
+        // The values do not see the names.
+        self.locals.append(&mut locals);
+        Some(())
     }
 
     /// Writes the parameters of a module, or of those in a branch.
@@ -82,6 +116,11 @@ impl FormulaWriter {
                     return None;
                 };
                 let FunctionArgs::Parentheses { arguments, .. } = &**arguments else { return None };
+                let Prefix::Name(name) = call.prefix() else { return None };
+                let name = text_of(name);
+                if self.locals.iter().any(|local| local.name == name) {
+                    return None;
+                }
                 arguments.iter().try_for_each(|argument| self.formula(argument, ValueType::Number))
             }
             Expression::TableConstructor(table) => table.fields().iter().try_for_each(|field| match field {
@@ -115,6 +154,11 @@ impl FormulaWriter {
             },
             Expression::Var(Var::Name(name)) => {
                 let name = text_of(name);
+                if let Some(local) = self.locals.iter_mut().rfind(|local| local.name == name) {
+                    local.is_read = true;
+                    self.words.extend_from_slice(&local.words);
+                    return (self.words.len() <= MOST).then_some(local.of);
+                }
                 let word = match self.parameters.iter().rposition(|known| *known == name) {
                     // The first parameter is `this`.
                     Some(number) => format!("a{}", number.checked_sub(1)?),
@@ -214,6 +258,18 @@ mod tests {
             ("function(_, a) return a % m // 2 == m / 2 end", "a0 o0 % 2 // o0 2 / ==|m"),
             ("function(_, a: number): boolean return a < 1e3 end", "a0 1000 <|"),
             ("function(_, a, a) return a < 1 end", "a1 1 <|"),
+            (
+                "function(_, n) local m = n + 1 return m > 0 and m < m * q end",
+                "a0 1 + 0 > a0 1 + a0 1 + o0 * < and|q",
+            ),
+            (
+                "function(_, n: number) local n: number, q = q, n local q = n / q return q > 1 end",
+                "o0 a0 / 1 >|q",
+            ),
+            (
+                "function(_, n) local is_old, this = n > 3, -n return is_old or this < 2 end",
+                "a0 3 > a0 neg 2 < or|",
+            ),
         ] {
             assert_eq!(condition(function).as_deref(), Some(expected), "{function}");
         }
@@ -224,6 +280,19 @@ mod tests {
         for (function, expected) in [
             ("function(_, n) return A(n - 1), { B(), C(n, r * n) }, D() end", Some("a0 1 -;a0;o0 a0 *|r")),
             ("function() return A(), B() end", Some("|")),
+            (
+                "function(_, n) local m = 2 * n local k = m - 1 return A(m), B(k, n) end",
+                Some("2 a0 *;2 a0 * 1 -;a0|"),
+            ),
+            ("function(_, n) local m, k = n return A(m, k) end", None),
+            ("function(_, n) local A = n return A(A) end", None),
+            ("function(_, n) local m = n, n return A(m) end", None),
+            ("function(_, n) local m = f(n) return A(m) end", None),
+            ("function(_, n) local m = n > 1 return A(m) end", None),
+            ("function(_, n) local m = n + 1 return A(n) end", None),
+            ("function(_, n) local m = n local m = 2 return A(m) end", None),
+            ("function(_, n) local m = n m = 2 return A(m) end", None),
+            ("function(_, n) local m = n return A(m), f().x(m) end", None),
             ("function(_, n) return A(n > 1) end", None),
             ("function(_, n) return A(f(n)) end", None),
             ("function(_, n) return A(n), n end", None),
@@ -246,7 +315,10 @@ mod tests {
             "function(_, n) return n > f(2) end",
             "function(_, n) return n > t.x end",
             "function(_, n) return n > 0, 1 end",
-            "function(_, n) local m = n return m > 0 end",
+            "function(_, n) local m = n m += 1 return m > 0 end",
+            "function(_, n) local m return n > 0 end",
+            "function(this, n) local m = this return m > n end",
+            "function(_, n) local m = n > 0 return m > 0 end",
             "function(_, ...) return ... > 0 end",
             "function(_, n) return n == nil end",
             "function(_, n) return n .. 1 == 'a1' end",
@@ -258,5 +330,9 @@ mod tests {
         }
         let long = format!("function(_, n) return n > 0{} end", " + n".repeat(40));
         assert_eq!(condition(&long), None);
+        let doubled = |times| format!("function(_, n) {}return n > 0 end", "local n = n + n ".repeat(times));
+        assert_eq!(condition(&doubled(4)).map(|code| code.split(' ').count()), Some(33));
+        assert_eq!(condition(&doubled(6)), None);
+        assert_eq!(condition(&doubled(5000)), None);
     }
 }

@@ -9,6 +9,7 @@ use super::cylinder::{CylinderOptions, OpenCylinder, already_open, not_open};
 use super::joined::JoinedBranches;
 use super::options::TurtleOptions;
 use super::state::TurtleState;
+use super::tropism::SimpleTropism;
 use crate::MaterialOptions;
 use crate::curves::curve::CurveObject;
 use crate::curves::surface::SurfaceObject;
@@ -76,6 +77,7 @@ impl Turtle {
         self.leave();
         let length = self.length(length);
         self.state.frame.forward(length);
+        self.state.bend_simply();
     }
 
     /// Turns to the left by `angle` (degrees, turtle.angle unless given); a negative angle turns right.
@@ -220,6 +222,29 @@ impl Turtle {
     /// Sets the strength with which the heading bends with each step drawn.
     pub fn elasticity(&mut self, elasticity: f64) {
         self.state.elasticity = elasticity;
+    }
+
+    /// Sets the simple tropism of cpfg and lpfg: after each step, drawn or not, the heading tilts towards `direction` by
+    /// `elasticity`.
+    pub fn simple_tropism(&mut self, direction: Vector, elasticity: f64) {
+        self.state.simple = SimpleTropism::new(direction.0, elasticity);
+    }
+
+    /// Sets the strength of the simple tropism; without a value, adds `turtle.simple_increment` to it.
+    pub fn simple_elasticity(&mut self, elasticity: Option<f64>) {
+        let increment = self.options.simple_increment;
+        if elasticity.is_none() && increment == 0.0 {
+            let text =
+                "turtle:simple_elasticity: without a value, it adds turtle.simple_increment, which is 0";
+            let warning = Warning::new(WarningKind::NoEffect, text);
+            self.warnings.push(
+                warning
+                    .help("give a value, as _(0.05) in strings, or turtle({ simple_increment = 0.05 })")
+                    .of_all(),
+            );
+        }
+        let simple = &mut self.state.simple;
+        simple.elasticity = elasticity.unwrap_or(simple.elasticity + increment);
     }
 
     /// Begins a polygon: `point` adds its corners, `end_polygon` fills it.

@@ -48,6 +48,15 @@ pub struct TurtleOptions {
     /// Strength of the bending, from 0; 0.2 is strong.
     #[default(0.0)]
     pub elasticity: f64,
+    /// Direction of the simple tropism of cpfg and lpfg.
+    #[default(Vector(DVec3::Z))]
+    pub simple_tropism: Vector,
+    /// Strength of the simple tropism.
+    #[default(0.0)]
+    pub simple_elasticity: f64,
+    /// Strength that `simple_elasticity` adds without a value, as `_` does in cpfg.
+    #[default(0.0)]
+    pub simple_increment: f64,
 }
 
 impl TurtleOptions {

@@ -10,7 +10,7 @@ use super::Turtle;
 use super::cylinder::OpenCylinder;
 use super::joined::BranchPlace;
 use super::options::TurtleOptions;
-use super::tropism::{TorqueSum, Tropism};
+use super::tropism::{SimpleTropism, TorqueSum, Tropism};
 use crate::surface::plain_material;
 use burgeon_base::error::{Error, Result};
 
@@ -29,6 +29,7 @@ pub(super) struct TurtleState {
     /// Tropisms in addition to that one.
     pub(super) more_tropisms: Vec<Tropism>,
     pub(super) torques: TorqueSum,
+    pub(super) simple: SimpleTropism,
     /// Branch that is being drawn.
     pub(super) strand: Option<Branch>,
     /// Contour of generalised cylinders; a circle if there is none.
@@ -62,6 +63,7 @@ impl TurtleState {
             elasticity: options.elasticity,
             more_tropisms: Vec::new(),
             torques: TorqueSum::default(),
+            simple: SimpleTropism::new(options.simple_tropism.0, options.simple_elasticity),
             strand: None,
             contour: None,
             cylinder: None,

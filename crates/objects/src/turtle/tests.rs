@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use burgeon_geometry::solid::{area, check, volume};
 use burgeon_kit::{
-    AxisScale, Color, Draw as _, Object, Rewind as _, Table, TableKey, TableOf, Value, Vector,
+    AxisScale, Color, Draw as _, Object, Rewind as _, Table, TableKey, TableOf, Value, Vector, Warn as _,
 };
 use burgeon_scene::Part;
 use glam::DVec3;
@@ -47,6 +47,18 @@ fn steps_within_a_cylinder_are_one_closed_surface() {
         turtle.end_cylinder().expect_err("none is open").remedy(),
         Some("begin it with begin_cylinder()")
     );
+}
+
+#[test]
+fn an_elasticity_without_a_value_adds_the_increment_and_warns_if_that_is_zero() {
+    let options = TurtleOptions { simple_increment: 0.25, ..Default::default() };
+    for (options, warnings) in [(options, 0), (Default::default(), 1)] {
+        let mut turtle = Turtle::new(options).expect("a turtle");
+        turtle.simple_elasticity(Some(0.5));
+        turtle.simple_elasticity(None);
+        assert_eq!(turtle.state.simple.elasticity, if warnings == 0 { 0.75 } else { 0.5 });
+        assert_eq!(turtle.take_warnings().len(), warnings);
+    }
 }
 
 #[test]

@@ -59,6 +59,35 @@ impl TorqueSum {
     }
 }
 
+/// The simple tropism of cpfg and lpfg, which tilts the heading after each step.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct SimpleTropism {
+    /// Direction of length 1, or zero.
+    direction: DVec3,
+    pub elasticity: f64,
+}
+
+impl SimpleTropism {
+    pub(super) fn new(direction: DVec3, elasticity: f64) -> Self {
+        Self { direction: direction.normalize_or_zero(), elasticity }
+    }
+
+    /// Tilts the heading of `frame` towards the up vector by asin(e T . U), then towards the left by asin(e T . L). An angle is at
+    /// most 90 degrees.
+    ///
+    /// Method: cpfg, *interpret.c*, function `bend`; lpfg, *turtle.cpp*.
+    fn tilt(&self, frame: &mut Frame) {
+        let angle = |towards: DVec3| {
+            // cpfg has no heading anymore if the sine is above 1.
+            let sin = (self.elasticity * self.direction.dot(towards)).clamp(-1.0, 1.0);
+            (sin, (1.0 - sin * sin).sqrt())
+        };
+        let (sin, cos) = angle(frame.up);
+        frame.pitch_by((-sin, cos));
+        frame.turn_by(angle(frame.left));
+    }
+}
+
 impl TurtleState {
     /// Adds a tropism to the others, whose preferred angle is `angle` (degrees).
     pub(super) fn add_tropism(&mut self, direction: DVec3, elasticity: f64, angle: f64) -> Result<()> {
@@ -82,8 +111,19 @@ impl TurtleState {
         Ok(())
     }
 
-    /// Bends the heading after a step, then rolls by the torques.
+    /// Bends the heading by the simple tropism after a step, drawn or not.
+    #[inline]
+    pub(super) fn bend_simply(&mut self) {
+        if self.simple.elasticity != 0.0 {
+            self.simple.tilt(&mut self.frame);
+        }
+    }
+
+    /// Bends the heading after a step that was drawn, then rolls by the torques.
+    ///
+    /// cpfg bends by the simple tropism after a step, and by the others before the next one.
     pub(super) fn bend(&mut self) {
+        self.bend_simply();
         if !self.more_tropisms.is_empty() {
             let main = Tropism { direction: self.tropism, elasticity: self.elasticity, angle: 0.0 };
             bend_together(&mut self.frame, self.more_tropisms.iter().copied().chain([main]));
@@ -141,6 +181,30 @@ mod tests {
                 assert!((found - angle).abs() < 1e-3, "{found} instead of {angle} from {heading}");
             }
         }
+    }
+
+    #[test]
+    fn the_simple_tropism_tilts_towards_the_up_vector_and_then_towards_the_left_as_in_cpfg() {
+        // H = x, L = z and U = -y. With T = (0, -0.6, 0.8), the sines are e T.U = 0.3 and e T.L = 0.4.
+        let mut turned = frame(DVec3::X);
+        assert!(turned.left.abs_diff_eq(DVec3::Z, 1e-12) && turned.up.abs_diff_eq(DVec3::NEG_Y, 1e-12));
+        SimpleTropism::new(DVec3::new(0.0, -3.0, 4.0), 0.5).tilt(&mut turned);
+        let expected = DVec3::new((0.91_f64 * 0.84).sqrt(), -0.3 * 0.84_f64.sqrt(), 0.4);
+        assert!(turned.heading.abs_diff_eq(expected, 1e-12), "{} instead of {expected}", turned.heading);
+        assert!(turned.heading.cross(turned.left).abs_diff_eq(turned.up, 1e-12));
+        // A second tilt, with T = z: the sine is 0.5 cos(30 degrees), and no angle of 0.5 radians as in ABOP.
+        let mut turned = frame(DVec3::X);
+        let simple = SimpleTropism::new(DVec3::Z, 0.5);
+        (0..2).for_each(|_| simple.tilt(&mut turned));
+        let expected = 30.0_f64.to_radians() + (0.5 * 0.75_f64.sqrt()).asin();
+        assert!((turned.heading.z - expected.sin()).abs() < 1e-12, "{}", turned.heading);
+    }
+
+    #[test]
+    fn a_simple_tropism_above_one_tilts_by_at_most_90_degrees() {
+        let mut turned = frame(DVec3::X);
+        SimpleTropism::new(DVec3::Z, 7.0).tilt(&mut turned);
+        assert!(turned.heading.abs_diff_eq(DVec3::Z, 1e-12), "{}", turned.heading);
     }
 
     fn torque(pull: DVec3) -> TorqueSum {

@@ -6,7 +6,7 @@ use burgeon_base::error::{Error, Result, SourcePlace, shorten};
 use burgeon_rewriting::{NameScope, Signature, Symbols};
 
 /// Turtle symbols of *The Algorithmic Beauty of Plants* and cpfg, with the modules of the standard library.
-const TURTLE: [(&str, &str); 23] = [
+const TURTLE: [(&str, &str); 24] = [
     ("@O", "Sphere"),
     ("@v", "Level"),
     ("f", "G"),
@@ -30,10 +30,11 @@ const TURTLE: [(&str, &str); 23] = [
     (",", "Paint"),
     ("~", "Place"),
     ("%", "Cut"),
+    ("_", "SimpleElasticity"),
 ];
 
 /// Symbols that errors list.
-const LISTED: &str = "F G f + - & ^ \\ / | $ ! # { } . ; , ~ % @O @v [ ]";
+const LISTED: &str = "F G f + - & ^ \\ / | $ ! # { } . ; , ~ % _ @O @v [ ]";
 
 /// Texts that stand for a successor without modules.
 const ERASING: [&str; 3] = ["", "*", "\u{3b5}"];
@@ -204,8 +205,8 @@ pub(super) fn string_names(text: &str, symbols: &Symbols, scope: &NameScope) -> 
 
 /// Returns true if a text contains symbols that are no names, and so can only be a string of modules.
 pub(super) fn has_symbols(text: &str) -> bool {
-    // The name of a module of a package can contain a hyphen and a full stop.
-    let can_be_name = |symbol: &str| symbol == "f" || symbol == "." || symbol == "-" && text.contains('.');
+    // A name can contain an underscore, and that of a module of a package a hyphen and a full stop.
+    let can_be_name = |symbol: &str| ["f", ".", "_"].contains(&symbol) || symbol == "-" && text.contains('.');
     TURTLE.iter().any(|(symbol, _)| text.contains(symbol) && !can_be_name(symbol))
 }
 
