@@ -161,6 +161,8 @@ fn volumes_of_union_intersection_and_difference_add_up_in_random_chains() {
 fn volumes_add_up_if_parts_of_a_result_touch_at_an_edge() {
     // A point of the difference was moved to another one, which added 4.5 dm³.
     assert!(moved_in_chain(1302) == 0);
+    // All attempts gave a result with a fold that was repaired afterwards.
+    assert!(moved_in_chain(31_396) == 0);
     // The difference only succeeds with a solid that is moved.
     assert!(moved_in_chain(756) <= 1);
 }

@@ -161,7 +161,9 @@ impl Shape {
             SolidOperation::Difference => second.volume() - found.volume() - other.volume(),
             SolidOperation::Union | SolidOperation::Intersection => second.volume() + found.volume() - whole,
         };
-        Ok(second.is_in_faces && error.abs() <= SAME_VOLUME * whole)
+        // Points of both results that almost coincide were joined.
+        let most = SAME_VOLUME * whole + NEAR * (self.area() + other.area());
+        Ok(error.abs() <= most)
     }
 
     /// Returns true if a solid can be combined with others: at most two faces share an edge, or surfaces that touch can be separated.
