@@ -15,6 +15,7 @@ mod reduce;
 mod regions;
 mod roof;
 mod solids;
+mod source_planes;
 mod strips;
 mod sweep;
 mod transform;

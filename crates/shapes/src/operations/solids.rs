@@ -12,6 +12,7 @@ use rustc_hash::FxHashSet;
 use super::flat_faces::remove_flat_triangles;
 use super::manifold_points::separate_surfaces;
 use super::merge::{merge_coplanar, merge_fillable, remove_opposite_faces, weld};
+use super::source_planes::SourcePlane;
 use crate::Shape;
 use crate::mesh::{PolygonFace, PolygonMesh};
 use crate::own_thread::run_abandonable;
@@ -59,6 +60,8 @@ const BYTES_OF_TRIANGLE: usize = 1000;
 const NEAR: f64 = 1e-7;
 /// Volume (m³) below which nothing remains.
 const NOTHING: f64 = 1e-9;
+/// Largest difference of equal volumes, as a fraction.
+const SAME_VOLUME: f64 = 1e-9;
 /// Number of faces between two checks for cancellation.
 const STRETCH: usize = 4096;
 
@@ -66,9 +69,9 @@ impl Shape {
     /// Returns the union, difference or intersection of two solids.
     ///
     /// Faces keep their tags, and get "bool.a" or "bool.b" by the solid that they come from. Coplanar parts of a face
-    /// are joined, unless a face would be too narrow. If the operation fails numerically, it is tried with points joined that
-    /// almost coincide, and with the second solid moved by up to 40 millionths of its size. Fails if a shape is open, or if all of
-    /// that fails.
+    /// are joined, unless a face would be too narrow. If the operation fails numerically, or a part of the result is not in a face of
+    /// the solids, it is tried with points joined that almost coincide, with the axes exchanged, and with the second solid moved by
+    /// up to 40 millionths of its size. Fails if a shape is open, or if all of that fails.
     ///
     /// Method: the crate `boolmesh`, after E. Lalish's Manifold.
     ///
@@ -115,11 +118,16 @@ impl Shape {
         for attempt in attempts.iter().copied() {
             let Some([one, two]) = attempt.solids(self, other) else { continue };
             let shift = attempt.shift(other).length();
-            match one.combine_once(&two, operation)? {
-                Ok(Some(solid)) if !solid.is_sound()? => {
+            match one.combine_once(&two, operation, attempt.turns())? {
+                Ok(found) if !found.is_in_faces && !one.has_volumes_of(&two, operation, &found)? => {
+                    if cause.is_empty() {
+                        cause = "a part of the result is not in a face of the solids".into();
+                    }
+                }
+                Ok(AttemptOutcome { solid: Some(solid), .. }) if !solid.is_sound()? => {
                     unsound = unsound.or(Some(CombinedSolid { solid: Some(solid), shift }));
                 }
-                Ok(solid) => return Ok(CombinedSolid { solid, shift }),
+                Ok(found) => return Ok(CombinedSolid { solid: found.solid, shift }),
                 // The crate refuses empty results, too.
                 Err(_) if attempt == SolidAttempt::Exact && self.leaves_nothing(other, operation)? => {
                     return Ok(CombinedSolid::exact(None));
@@ -136,6 +144,28 @@ impl Shape {
         }
     }
 
+    /// Returns true if the volumes of the result and of another operation on the solids add up to those of the solids.
+    fn has_volumes_of(
+        &self,
+        other: &Self,
+        operation: SolidOperation,
+        found: &AttemptOutcome,
+    ) -> Result<bool> {
+        let second = match operation {
+            SolidOperation::Union => SolidOperation::Intersection,
+            SolidOperation::Difference | SolidOperation::Intersection => SolidOperation::Union,
+        };
+        let Ok(second) = self.combine_once(other, second, 0)? else { return Ok(false) };
+        let whole = self.volume() + other.volume();
+        let error = match operation {
+            SolidOperation::Difference => second.volume() - found.volume() - other.volume(),
+            SolidOperation::Union | SolidOperation::Intersection => second.volume() + found.volume() - whole,
+        };
+        // Points of both results that almost coincide were joined.
+        let most = SAME_VOLUME * whole + NEAR * (self.area() + other.area());
+        Ok(error.abs() <= most)
+    }
+
     /// Returns true if a solid can be combined with others: at most two faces share an edge, or surfaces that touch can be separated.
     fn is_sound(&self) -> Result<bool> {
         let mesh = self.mesh();
@@ -148,16 +178,23 @@ impl Shape {
         Ok(catch_unwind(AssertUnwindSafe(check)).unwrap_or(false))
     }
 
-    /// Returns the result of an operation on solids whose boxes touch, or the cause of a numerical failure.
+    /// Returns the result of an operation on solids whose boxes touch, computed with the axes exchanged so often, or the cause of a
+    /// numerical failure.
     fn combine_once(
         &self,
         other: &Self,
         operation: SolidOperation,
-    ) -> Result<std::result::Result<Option<Self>, String>> {
+        turns: usize,
+    ) -> Result<std::result::Result<AttemptOutcome, String>> {
         let center = self.scope.center();
-        let mut styles: Vec<SharedStyle> = Vec::new();
-        let one = triangles(self, center, "bool.a", &mut styles)?;
-        let two = triangles(other, center, "bool.b", &mut styles)?;
+        let mut sources: Vec<SourceFace> = Vec::new();
+        let mut one = triangles(self, center, "bool.a", &mut sources)?;
+        let first_of_two = sources.len();
+        let mut two = triangles(other, center, "bool.b", &mut sources)?;
+        // Such a turn is exact, and the crate meets the edges in another order.
+        [&mut one, &mut two].into_iter().for_each(|solid| {
+            solid.0.chunks_exact_mut(3).for_each(|at| at.rotate_left(turns));
+        });
         if one.1.len() + two.1.len() > 3 * MOST_TRIANGLES {
             let message =
                 format!("a set operation takes solids of at most {MOST_TRIANGLES} triangles together");
@@ -166,6 +203,7 @@ impl Shape {
         Stop::check_current()?;
         let count = (one.1.len() + two.1.len()) / 3;
         MemoryOwner::ensure_room(count.saturating_mul(BYTES_OF_TRIANGLE))?;
+        let is_difference = operation == SolidOperation::Difference;
         let compute = move || {
             let [one, two] = [one, two]
                 .map(|(points, corners, faces)| Manifold::new_with_values(&points, &corners, &faces));
@@ -186,8 +224,13 @@ impl Shape {
             Some(Err(cause)) => return Ok(Err(cause)),
             None => return Ok(Err("numerical trouble".into())),
         };
-        let points = solid.ps.iter().map(|at| DVec3::from_array(at.to_array()) + center).collect();
+        let turned_back = |mut at: [f64; 3]| {
+            at.rotate_right(turns);
+            DVec3::from_array(at)
+        };
+        let points: Vec<DVec3> = solid.ps.iter().map(|at| turned_back(at.to_array())).collect();
         let mut faces = Vec::with_capacity(solid.nf);
+        let mut is_in_faces = true;
         for (corners, values) in solid.hs.chunks_exact(3).zip(solid.vals.chunks_exact(3)) {
             let ring: Vec<u32> = corners.iter().filter_map(|half| u32::try_from(half.tail).ok()).collect();
             #[allow(
@@ -196,11 +239,20 @@ impl Shape {
                 reason = "numbers of faces, interpolated"
             )]
             let face = values[0].round() as usize;
-            faces.push(PolygonFace::of(&ring, styles.get(face).unwrap_or(&None)));
+            let source = sources.get(face);
+            let is_reversed = is_difference && face >= first_of_two;
+            if let (Some(source), [a, b, c]) = (source, ring.as_slice())
+                && !source.plane.has_triangle([a, b, c].map(|point| points[*point as usize]), is_reversed)
+            {
+                // The crate can move points if it removes edges that occur twice.
+                is_in_faces = false;
+            }
+            faces.push(PolygonFace::of(&ring, source.map_or(&None, |source| &source.style)));
         }
         if faces.is_empty() {
-            return Ok(Ok(None));
+            return Ok(Ok(AttemptOutcome { solid: None, is_in_faces }));
         }
+        let points = points.into_iter().map(|at| at + center).collect();
         let mut whole = weld_closed(PolygonMesh::new(points, faces));
         remove_flat_triangles(&mut whole, NEAR)?;
         let mut mesh = merge_coplanar(&whole)?;
@@ -210,7 +262,7 @@ impl Shape {
         // Coincident faces of the solids can leave both sides of a face without thickness.
         remove_opposite_faces(&mut mesh);
         if mesh.faces.is_empty() {
-            return Ok(Ok(None));
+            return Ok(Ok(AttemptOutcome { solid: None, is_in_faces }));
         }
         if !mesh.is_closed() {
             return Ok(Err("the result is open".into()));
@@ -218,18 +270,24 @@ impl Shape {
         if !mesh.is_fillable() {
             return Ok(Err("a face is too narrow".into()));
         }
-        Ok(Ok(Some(Self::of_mesh(mesh, self.scope.axes))))
+        Ok(Ok(AttemptOutcome { solid: Some(Self::of_mesh(mesh, self.scope.axes)), is_in_faces }))
     }
 
     /// Returns true if nothing is the result of an operation on two solids.
     fn leaves_nothing(&self, other: &Self, operation: SolidOperation) -> Result<bool> {
         match operation {
             SolidOperation::Union => Ok(false),
-            SolidOperation::Intersection => Ok(!self.overlaps(other)?),
+            SolidOperation::Intersection if !self.overlaps(other)? => Ok(true),
+            // An overlap that is thinner than the rounding errors.
+            SolidOperation::Intersection => {
+                let rest = self.combine_once(other, SolidOperation::Difference, 0)?;
+                let (rest, own) = (rest.map_or(0.0, |rest| rest.volume()), self.volume());
+                Ok((rest - own).abs() <= SAME_VOLUME * own)
+            }
             SolidOperation::Difference => {
                 let both = self.combine(other, SolidOperation::Intersection)?.solid;
                 let both = both.map_or(0.0, |both| both.volume());
-                Ok(both >= self.volume() * (1.0 - 1e-9))
+                Ok(both >= self.volume() * (1.0 - SAME_VOLUME))
             }
         }
     }
@@ -253,11 +311,28 @@ impl Shape {
     }
 }
 
+/// Result of an attempt.
+struct AttemptOutcome {
+    /// Solid; `None` if nothing remains.
+    solid: Option<Shape>,
+    /// True if each triangle, before the repair of the result, was in the face of a solid that it comes from.
+    is_in_faces: bool,
+}
+
+impl AttemptOutcome {
+    /// Returns the volume (m³).
+    fn volume(&self) -> f64 {
+        self.solid.as_ref().map_or(0.0, Shape::volume)
+    }
+}
+
 /// Way to compute an operation, after which the next one is tried if it fails.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum SolidAttempt {
     /// The solids as they are.
     Exact,
+    /// The solids as they are, computed with the axes exchanged so often.
+    Turned(usize),
     /// Points that almost coincide are joined.
     Welded,
     /// The same, and the second solid is moved by a fraction of its size, so that faces of both that almost coincide cross properly.
@@ -265,14 +340,26 @@ enum SolidAttempt {
 }
 
 impl SolidAttempt {
-    const ALL: [Self; 5] =
-        [Self::Exact, Self::Welded, Self::Moved(1e-6), Self::Moved(-7e-6), Self::Moved(4e-5)];
+    const ALL: [Self; 7] = [
+        Self::Exact,
+        Self::Welded,
+        Self::Turned(1),
+        Self::Turned(2),
+        Self::Moved(1e-6),
+        Self::Moved(-7e-6),
+        Self::Moved(4e-5),
+    ];
+
+    /// Returns the number of times that the axes are exchanged.
+    fn turns(self) -> usize {
+        if let Self::Turned(turns) = self { turns } else { 0 }
+    }
 
     /// Returns the solids to combine; `None` if they are those of the attempt before.
     fn solids<'a>(self, one: &'a Shape, two: &'a Shape) -> Option<[Cow<'a, Shape>; 2]> {
         let weld_both = || [one, two].map(|shape| weld_solid(shape).map_or(Cow::Borrowed(shape), Cow::Owned));
         match self {
-            Self::Exact => Some([one, two].map(Cow::Borrowed)),
+            Self::Exact | Self::Turned(_) => Some([one, two].map(Cow::Borrowed)),
             Self::Welded => {
                 let solids = weld_both();
                 solids.iter().any(|shape| matches!(shape, Cow::Owned(_))).then_some(solids)
@@ -311,15 +398,21 @@ fn weld_closed(mesh: PolygonMesh) -> PolygonMesh {
     if joined.points.len() < mesh.points.len() && joined.is_closed() { joined } else { mesh }
 }
 
-/// Points, corners and the style number of each corner, as the crate `boolmesh` takes them.
+/// Face of a solid from which triangles of a result come.
+struct SourceFace {
+    style: SharedStyle,
+    plane: SourcePlane,
+}
+
+/// Points, corners and the number of the source face of each corner, as the crate `boolmesh` takes them.
 type TriangleColumns = (Vec<f64>, Vec<usize>, Vec<f64>);
 
-/// Returns the triangles of a solid relative to `center` (m), and adds the styles of its faces with another tag.
+/// Returns the triangles of a solid relative to `center` (m), and adds its faces to `sources`, with another tag.
 fn triangles(
     shape: &Shape,
     center: DVec3,
     tag: &'static str,
-    styles: &mut Vec<SharedStyle>,
+    sources: &mut Vec<SourceFace>,
 ) -> Result<TriangleColumns> {
     let mesh = shape.mesh();
     let mut points: Vec<DVec3> = mesh.points.iter().map(|at| *at - center).collect();
@@ -330,9 +423,10 @@ fn triangles(
         }
         let own: Vec<[u32; 3]> = mesh.triangles(face)?;
         #[allow(clippy::cast_precision_loss, reason = "fewer than 2^52 faces")]
-        faces.extend(std::iter::repeat_n(styles.len() as f64, 3 * own.len()));
+        faces.extend(std::iter::repeat_n(sources.len() as f64, 3 * own.len()));
         corners.extend(own.iter().flatten().map(|point| *point as usize));
-        styles.push(FaceStyle::with_automatic_tag(&face.style, tag));
+        let style = FaceStyle::with_automatic_tag(&face.style, tag);
+        sources.push(SourceFace { style, plane: SourcePlane::of_face(&mesh, face, center) });
     }
     separate_surfaces(&mut points, &mut corners, &mut faces);
     let points = points.into_iter().flat_map(|at| at.to_array()).collect();
