@@ -54,7 +54,7 @@ impl RenderDetail {
             Quality::Film => Self {
                 columns: 2,
                 rows: 4,
-                sky_maps: 28,
+                sky_maps: affordable(56_000_000, 28, 20),
                 sky_side: 192.0,
                 sky_points: true,
                 sun_side: 1280.0,
