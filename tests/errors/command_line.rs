@@ -391,7 +391,7 @@ fn help_reads_well() {
       run          Runs a script and writes what it makes
       live         Shows what a script makes in the browser, and shows it anew on every save; also shows a folder of tiles
       check        Checks a script and its required files as far as a run goes, and reports all problems
-      api          Tells what scripts can use: types of objects with their fields and methods, functions and modules
+      api          Shows the scripting API: types of objects with their fields and methods, functions and modules
       variations   Runs a script many times, with other seeds or other values of a parameter, and shows them side by side
       fit          Searches for a rule table whose terrain is like a height map
       mods         Lists the packages that scripts can use, and what they replace; checks, explains, makes, adds and disables them

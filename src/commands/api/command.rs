@@ -14,7 +14,7 @@ use burgeon::{Error, Result};
 use clap::Args;
 use serde_json::json;
 
-/// Tells what scripts can use: types of objects with their fields and methods, functions and modules
+/// Shows the scripting API: types of objects with their fields and methods, functions and modules
 #[derive(Args)]
 pub(crate) struct ApiCommand {
     /// Item to describe, such as extruder, extruder:extrude or extruder.sides [default: list all]

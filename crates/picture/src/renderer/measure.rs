@@ -1,7 +1,7 @@
 //! Measures the extent of a scene.
 
 use super::extent::Extent;
-use super::points::{Outlines, StageFrame, hull, spread};
+use super::points::{SceneOutlines, StageFrame, hull, spread};
 use super::stage::check;
 use burgeon_base::error::Result;
 use burgeon_scene::Scene;
@@ -20,7 +20,7 @@ impl Extent {
     /// Computes the extent of `scene`; empty if the scene shows nothing. Fails as [`render`](super::render) does.
     pub fn of(scene: &Scene) -> Result<Self> {
         check(scene)?;
-        let outlines = Outlines::new(scene);
+        let outlines = SceneOutlines::new(scene);
         let StageFrame { shrink, bounds } = outlines.frame(None);
         let hull = hull(outlines.placed(shrink), bounds);
         let back = shrink.inverse();

@@ -10,7 +10,7 @@ use std::borrow::Cow;
 const CELLS: usize = 32;
 
 /// Points that determine the extent of a scene.
-pub(super) struct Outlines<'a> {
+pub(super) struct SceneOutlines<'a> {
     scene: &'a Scene,
     /// Points of each mesh: all of them if the mesh has few instances, otherwise the farthest in each of many directions.
     meshes: Vec<Vec<Cow<'a, [Vec3]>>>,
@@ -24,7 +24,7 @@ pub(super) struct StageFrame {
     pub bounds: (Vec3A, Vec3A),
 }
 
-impl<'a> Outlines<'a> {
+impl<'a> SceneOutlines<'a> {
     /// Finds the points of `scene`. Meshes that are not shown have none.
     pub(super) fn new(scene: &'a Scene) -> Self {
         let mut uses = vec![0_usize; scene.meshes.len()];

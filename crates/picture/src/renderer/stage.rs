@@ -5,7 +5,7 @@
 
 use super::clip::clip;
 use super::extent::Extent;
-use super::points::{self, Outlines, StageFrame, to_single};
+use super::points::{self, SceneOutlines, StageFrame, to_single};
 use super::texture::{MaterialImages, SampledTexture};
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_base::stop::Stop;
@@ -30,7 +30,7 @@ pub(super) struct Stage<'a> {
     /// Transform from the world to the stage.
     pub shrink: DAffine3,
     count: u32,
-    outlines: Outlines<'a>,
+    outlines: SceneOutlines<'a>,
     /// Cancellation signal. After cancellation nothing more is drawn.
     pub stop: &'a Stop,
 }
@@ -90,8 +90,8 @@ impl<'a> Stage<'a> {
         stop.check()?;
         let shared = extent.filter(|extent| is_shared && !extent.is_empty());
         let outlines = match shared {
-            Some(_) => Outlines::empty(scene),
-            None => Outlines::new(scene),
+            Some(_) => SceneOutlines::empty(scene),
+            None => SceneOutlines::new(scene),
         };
         let StageFrame { shrink, bounds } = outlines.frame(extent);
         let closed: Vec<bool> = scene.meshes.par_iter().map(is_closed).collect();
