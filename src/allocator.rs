@@ -13,16 +13,6 @@ pub(crate) struct ProgramAllocator;
 
 const PAGE: usize = 4096;
 
-/// Number of mimalloc's option for the time (ms) after which it returns freed pages to the system.
-const PURGE_DELAY: i32 = 15;
-
-/// Keeps freed pages for a second, because the first access to new pages costs more than most computations on them: the frames
-/// of a film and successive steps allocate the same arrays again.
-pub(crate) fn keep_freed_pages() {
-    // SAFETY: the option is a number that mimalloc reads at any time.
-    unsafe { libmimalloc_sys::mi_option_set(PURGE_DELAY, 1000) }
-}
-
 fn is_mapped(size: usize, align: usize) -> bool {
     cfg!(target_os = "linux") && size >= MAPPED && align <= PAGE
 }
@@ -118,16 +108,6 @@ fn unmap(_: *mut u8, _: usize) {}
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn the_option_is_that_of_freed_pages() {
-        // SAFETY: the options are numbers that mimalloc reads at any time.
-        let get = || unsafe { libmimalloc_sys::mi_option_get(PURGE_DELAY) };
-        // mimalloc's own value.
-        assert_eq!(get(), 10);
-        keep_freed_pages();
-        assert_eq!(get(), 1000);
-    }
 
     #[test]
     fn what_an_array_holds_stays_while_it_becomes_larger_and_smaller_than_what_is_mapped() {

@@ -17,7 +17,5 @@ static ALLOCATOR: CountingAllocator<allocator::ProgramAllocator> =
 static ALLOCATOR: CountingAllocator<std::alloc::System> = CountingAllocator(std::alloc::System);
 
 fn main() -> ExitCode {
-    #[cfg(feature = "mimalloc")]
-    allocator::keep_freed_pages();
     burgeon::run_command(std::env::args_os())
 }

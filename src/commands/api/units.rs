@@ -59,7 +59,7 @@ const COUNTS: [&str; 49] = [
 ];
 
 /// Fractions, probabilities, weights and factors.
-const FACTORS: [&str; 75] = [
+const FACTORS: [&str; 80] = [
     ".amount",
     ".metallic",
     ".noise",
@@ -67,6 +67,7 @@ const FACTORS: [&str; 75] = [
     ".patches",
     ".roughness",
     "Elasticity elasticity",
+    "SimpleElasticity elasticity",
     "Place scale",
     "curve:mix t",
     "curve:point t",
@@ -129,7 +130,11 @@ const FACTORS: [&str; 75] = [
     "turtle.elasticity",
     "turtle:add_torque elasticity",
     "turtle:add_tropism elasticity",
+    "turtle.simple_elasticity",
+    "turtle.simple_increment",
     "turtle:elasticity elasticity",
+    "turtle:simple_elasticity elasticity",
+    "turtle:simple_tropism elasticity",
     "turtle:place scale",
     "turtle:scale factor",
     "turtle:surface scale",
