@@ -24,13 +24,13 @@ impl Numbers {
         (self.next() * f64::from(count)) as u32
     }
 
-    fn between(&mut self, from: f64, to: f64) -> f64 {
+    fn uniform(&mut self, from: f64, to: f64) -> f64 {
         from + (to - from) * self.next()
     }
 
     /// Returns a length of whole or half metres, or any length.
     fn length(&mut self, from: f64, to: f64) -> f64 {
-        let any = self.between(from, to);
+        let any = self.uniform(from, to);
         match self.below(3) {
             0 => any,
             1 => (any * 2.0).round() / 2.0,
@@ -87,9 +87,9 @@ fn part(numbers: &mut Numbers) -> Shape {
         0 | 1 => solid,
         2 => solid.rotate(DVec3::ZERO, axis, f64::from(numbers.below(24)) * PI / 12.0),
         _ => {
-            let mut side = || numbers.between(-1.0, 1.0);
+            let mut side = || numbers.uniform(-1.0, 1.0);
             let axis = DVec3::new(side(), side(), side()).normalize();
-            solid.rotate(DVec3::ZERO, axis, numbers.between(-PI, PI))
+            solid.rotate(DVec3::ZERO, axis, numbers.uniform(-PI, PI))
         }
     };
     let mut offset =
@@ -97,7 +97,7 @@ fn part(numbers: &mut Numbers) -> Shape {
     match numbers.below(8) {
         0 => {
             let direction = DVec3::new(numbers.next(), numbers.next(), numbers.next());
-            offset += direction * 10f64.powf(numbers.between(-12.0, -4.0));
+            offset += direction * 10f64.powf(numbers.uniform(-12.0, -4.0));
         }
         1 => offset = DVec3::ZERO,
         _ => {}
@@ -116,7 +116,7 @@ fn next_part(whole: &Shape, numbers: &mut Numbers) -> Shape {
     let mut offset = DVec3::ZERO;
     offset[axis] = own[axis] - other[axis];
     if numbers.below(3) == 0 {
-        offset[axis] += numbers.between(-1.0, 1.0) * 10f64.powf(numbers.between(-9.0, -2.0));
+        offset[axis] += numbers.uniform(-1.0, 1.0) * 10f64.powf(numbers.uniform(-9.0, -2.0));
     }
     part.translate(offset)
 }

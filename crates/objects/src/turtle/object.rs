@@ -77,7 +77,7 @@ impl Turtle {
         self.leave();
         let length = self.length(length);
         self.state.frame.forward(length);
-        self.state.bend_simply();
+        self.state.apply_simple_tropism();
     }
 
     /// Turns to the left by `angle` (degrees, turtle.angle unless given); a negative angle turns right.

@@ -113,7 +113,7 @@ impl TurtleState {
 
     /// Bends the heading by the simple tropism after a step, drawn or not.
     #[inline]
-    pub(super) fn bend_simply(&mut self) {
+    pub(super) fn apply_simple_tropism(&mut self) {
         if self.simple.elasticity != 0.0 {
             self.simple.tilt(&mut self.frame);
         }
@@ -123,7 +123,7 @@ impl TurtleState {
     ///
     /// cpfg bends by the simple tropism after a step, and by the others before the next one.
     pub(super) fn bend(&mut self) {
-        self.bend_simply();
+        self.apply_simple_tropism();
         if !self.more_tropisms.is_empty() {
             let main = Tropism { direction: self.tropism, elasticity: self.elasticity, angle: 0.0 };
             bend_together(&mut self.frame, self.more_tropisms.iter().copied().chain([main]));

@@ -132,7 +132,7 @@ fn tile(
     }
     let pixels: Vec<usize> = shares.iter().map(|share| share.pixel).collect();
     if detail.pools_light {
-        share::pool(&mut fragments, &pixels, size, light.camera);
+        share::pool_light(&mut fragments, &pixels, size, light.camera);
     }
     let mut gathered = light.gather(&fragments, fragments.len());
     if detail.turns > 1 {

@@ -22,7 +22,7 @@ impl Extent {
         check(scene)?;
         let outlines = SceneOutlines::new(scene);
         let StageFrame { shrink, bounds } = outlines.frame(None);
-        let hull = hull(outlines.placed(shrink), bounds);
+        let hull = hull(outlines.stage_points(shrink), bounds);
         let back = shrink.inverse();
         let farthest = farthest_corners(&hull).into_iter();
         Ok(Self::new(farthest.map(|i| back.transform_point3(hull[i].as_dvec3())).collect()))

@@ -55,7 +55,7 @@ impl<'a> SceneOutlines<'a> {
     }
 
     /// Returns the points of all instances, transformed by `shrink`. Points that are not finite are skipped.
-    pub(super) fn placed(&self, shrink: DAffine3) -> impl Iterator<Item = Vec3A> {
+    pub(super) fn stage_points(&self, shrink: DAffine3) -> impl Iterator<Item = Vec3A> {
         self.scene
             .instances
             .iter()

@@ -28,7 +28,7 @@ pub(super) fn take_turns(fragments: &mut [Fragment], maps: usize, turns: usize, 
 /// Lets the fragments of each two by two pixels that lie on one surface share one light: each gathers it from a part of the
 /// sky. So do those of crowded pixels, because their colours are mixed anyway. The fragments are those of a tile of `size`
 /// pixels, in order, and `pixels` are the pixels that they belong to.
-pub(super) fn pool(
+pub(super) fn pool_light(
     fragments: &mut [Fragment],
     pixels: &[usize],
     [width, height]: [usize; 2],
@@ -42,11 +42,11 @@ pub(super) fn pool(
             for row in y..(y + 2).min(height) {
                 for pixel in row * width + x..row * width + (x + 2).min(width) {
                     let own = starts[pixel]..starts[pixel + 1];
-                    crowd(&mut fragments[own.clone()]);
+                    count_crowd(&mut fragments[own.clone()]);
                     for index in own {
                         let fragment = &fragments[index];
                         let mut known = groups[..count].iter_mut();
-                        match known.find(|group| shares_light(fragment, &fragments[group[0]], camera)) {
+                        match known.find(|group| has_light_of(fragment, &fragments[group[0]], camera)) {
                             Some(group) => group.push(index),
                             None => {
                                 if count == groups.len() {
@@ -70,7 +70,7 @@ pub(super) fn pool(
 }
 
 /// Counts the surfaces of the model in a pixel that shows more than two.
-fn crowd(fragments: &mut [Fragment]) {
+fn count_crowd(fragments: &mut [Fragment]) {
     let of_model = || |fragment: &&mut Fragment| fragment.surface.material.is_some();
     let count = fragments.iter_mut().filter(of_model()).count();
     if count > 2 {
@@ -83,7 +83,7 @@ fn crowd(fragments: &mut [Fragment]) {
 }
 
 /// Returns true if a fragment gathers the same light as the `first` of others nearby.
-fn shares_light(fragment: &Fragment, first: &Fragment, camera: &Camera) -> bool {
+fn has_light_of(fragment: &Fragment, first: &Fragment, camera: &Camera) -> bool {
     if fragment.crowd.1 > 2 && first.crowd.1 > 2 {
         return true;
     }
@@ -182,7 +182,7 @@ mod tests {
         let height = |pixel: usize| if pixel == 6 { 0.5 } else { 0.0 };
         let mut fragments: Vec<Fragment> =
             pixels.iter().map(|pixel| fragment(&camera, Vec3A::Z * height(*pixel), *pixel)).collect();
-        pool(&mut fragments, &pixels, [5, 3], &camera);
+        pool_light(&mut fragments, &pixels, [5, 3], &camera);
         for (pools, count) in
             [([0, 1, 5].as_slice(), 3), (&[6], 1), (&[2, 3, 7, 8], 4), (&[4, 9], 2), (&[14], 1)]
         {
@@ -205,7 +205,7 @@ mod tests {
         fragments.iter_mut().enumerate().for_each(|(i, fragment)| {
             fragment.surface.material = (i != 3).then_some(i);
         });
-        pool(&mut fragments, &pixels, [2, 1], &camera);
+        pool_light(&mut fragments, &pixels, [2, 1], &camera);
         let pools: Vec<usize> = fragments.iter().map(|fragment| fragment.pool).collect();
         assert_eq!(pools, [0, 0, 0, 3, 0, 0, 0]);
         assert_eq!((fragments[3].share, fragments[6].share, fragments[5].crowd), ((0, 1), (5, 6), (1, 3)));

@@ -159,7 +159,7 @@ impl<'a> Stage<'a> {
 
     /// Returns points whose extent in every direction equals the model's extent to within a percent.
     pub(super) fn points(&self) -> impl Iterator<Item = Vec3A> {
-        self.outlines.placed(self.shrink)
+        self.outlines.stage_points(self.shrink)
     }
 
     /// Returns the numbers of all triangles, divided into ranges of work for one thread.
