@@ -1,4 +1,4 @@
-//! Lists of triangles in which a tube is stored as rings.
+//! Lists of triangles in which tubes are stored as rings and rectangles as their corners.
 
 use std::ops::Range;
 
@@ -6,8 +6,8 @@ use burgeon_base::memory::make_room;
 
 /// Triangles as indices of their corners, counter-clockwise seen from outside.
 ///
-/// Rewriting draws mostly tubes. Their faces follow from their rings, so a band or a fan is stored as such and expanded
-/// triangle by triangle. That takes a tenth of the memory, whose first access costs more than the computation of the
+/// Rewriting draws mostly tubes and rectangles. Their faces follow from their rings and corners, so a band, a fan or a row of
+/// quads is stored as such and expanded triangle by triangle. That takes a tenth of the memory, whose first access costs more than the computation of the
 /// geometry.
 ///
 /// ```
@@ -45,10 +45,14 @@ enum FacePattern {
         first: u32,
         turned: bool,
     },
+    /// Pairs of triangles, each with four corners that follow those of the last pair.
+    Quads {
+        first: u32,
+    },
 }
 
 impl Triangles {
-    /// Maximum number of triangles before a band or a fan.
+    /// Maximum number of triangles before a band, a fan or a quad.
     pub const MOST_BEFORE: usize = u32::MAX as usize;
 
     /// Returns the number of triangles.
@@ -100,6 +104,32 @@ impl Triangles {
             self.begin(FacePattern::Fan { first, turned });
             self.count += usize::from(corners) - 2;
         }
+    }
+
+    /// Adds the two triangles of a convex face with four corners, which begin at `first`.
+    ///
+    /// Faces whose corners follow each other need no memory.
+    ///
+    /// ```
+    /// use burgeon_scene::Triangles;
+    ///
+    /// let mut triangles = Triangles::default();
+    /// triangles.quad(0);
+    /// triangles.quad(4);
+    /// assert_eq!(triangles.iter().collect::<Vec<_>>(), [[0, 1, 2], [0, 2, 3], [4, 5, 6], [4, 6, 7]]);
+    /// ```
+    #[inline]
+    pub fn quad(&mut self, first: u32) {
+        let follows = self.runs.last().is_some_and(|run| match run.faces {
+            FacePattern::Quads { first: start } => {
+                start + 2 * short(self.count - run.first as usize) == first
+            }
+            _ => false,
+        });
+        if !follows {
+            self.begin(FacePattern::Quads { first });
+        }
+        self.count += 2;
     }
 
     #[inline]
@@ -178,6 +208,7 @@ impl Triangles {
                     join(from.min(to), from.max(to) + u32::from(sides));
                 }
                 FacePattern::Fan { first, .. } if is_whole => join(first, first + short(until - place) + 1),
+                FacePattern::Quads { first } if is_whole => join(first, first + 2 * short(until - place) - 1),
                 _ => self.range(place..until.min(end)).flatten().for_each(|corner| join(corner, corner)),
             }
             place = until;
@@ -316,6 +347,11 @@ impl Iterator for Iter<'_> {
             },
             FacePattern::Fan { first, turned: false } => [first, first + side + 1, first + side + 2],
             FacePattern::Fan { first, turned: true } => [first, first + side + 2, first + side + 1],
+            FacePattern::Quads { first } => {
+                let corner = first + side / 2 * 4;
+                let second = side % 2;
+                [corner, corner + 1 + second, corner + 2 + second]
+            }
         })
     }
 
@@ -334,12 +370,13 @@ mod tests {
 
     use super::*;
 
-    /// Addition to a list of triangles: listed triangles, a band or a fan.
+    /// Addition to a list of triangles: listed triangles, a band, a fan or quads.
     #[derive(Debug, Clone)]
     enum TriangleAddition {
         Listed(Vec<[u32; 3]>),
         Band(u32, u32, u16),
         Fan(u32, u16, bool),
+        Quads(u32, u32),
     }
 
     fn added() -> impl Strategy<Value = TriangleAddition> {
@@ -349,6 +386,8 @@ mod tests {
                 .prop_map(|(from, to, sides)| TriangleAddition::Band(from, to, sides)),
             (0u32..99, 0u16..6, any::<bool>())
                 .prop_map(|(first, corners, turned)| TriangleAddition::Fan(first, corners, turned)),
+            // Few places, so that quads often follow those of the last addition.
+            (0u32..4, 0u32..4).prop_map(|(place, count)| TriangleAddition::Quads(4 * place, count)),
         ]
     }
 
@@ -371,6 +410,12 @@ mod tests {
                     let fan = (2..u32::from(*corners)).map(|i| [*first, first + i - 1, first + i]);
                     plain.extend(fan.map(|[a, b, c]| if *turned { [a, c, b] } else { [a, b, c] }));
                 }
+                TriangleAddition::Quads(first, count) => {
+                    for corner in (0..*count).map(|quad| first + 4 * quad) {
+                        triangles.quad(corner);
+                        plain.extend([[corner, corner + 1, corner + 2], [corner, corner + 2, corner + 3]]);
+                    }
+                }
             }
         }
         (triangles, plain)
@@ -382,9 +427,11 @@ mod tests {
             TriangleAddition::Band(0, 6, 5),
             TriangleAddition::Listed(vec![[1, 2, 3]]),
             TriangleAddition::Fan(12, 5, true),
+            TriangleAddition::Quads(20, 2),
+            TriangleAddition::Quads(28, 1),
         ]);
         assert_eq!(bands, Triangles::from(plain.clone()));
-        assert_eq!(bands.len(), 14);
+        assert_eq!((bands.len(), bands.runs.len()), (20, 4));
         let mut other = plain;
         other[13].reverse();
         assert_ne!(bands, Triangles::from(other));

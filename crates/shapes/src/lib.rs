@@ -4,6 +4,7 @@
 //! random number or knows modules and scripts.
 
 mod body;
+mod compact_scope;
 mod components;
 mod construct;
 mod crossings;

@@ -20,8 +20,8 @@ impl Shape {
     /// Returns true if a position (m) is inside the solid. Fails if the shape is open.
     pub fn contains(&self, place: DVec3) -> Result<bool> {
         if let ShapeBody::Box(_) = self.body {
-            let local = self.scope.local(place);
-            return Ok(local.cmpge(DVec3::ZERO).all() && local.cmple(self.scope.size).all());
+            let local = self.scope().local(place);
+            return Ok(local.cmpge(DVec3::ZERO).all() && local.cmple(self.scope().size).all());
         }
         Ok(self.closed_mesh()?.contains(place))
     }
@@ -36,8 +36,8 @@ impl Shape {
     /// Returns the distance (m) from a position to the nearest point of the faces, or of the edge; 0 inside a solid.
     pub fn distance_to_place(&self, place: DVec3) -> Result<f64> {
         if let ShapeBody::Edge(..) = self.body {
-            let along = self.scope.local(place).x.clamp(0.0, self.scope.size.x);
-            return Ok(place.distance(self.scope.point(DVec3::X * along)));
+            let along = self.scope().local(place).x.clamp(0.0, self.scope().size.x);
+            return Ok(place.distance(self.scope().point(DVec3::X * along)));
         }
         if self.is_closed() && self.contains(place)? {
             return Ok(0.0);
@@ -151,12 +151,12 @@ fn box_distance([low, high]: &[DVec3; 2], [other_low, other_high]: &[DVec3; 2]) 
 ///
 /// Method: the separating axis theorem: the axes of both boxes and their cross products.
 fn boxes_overlap(one: &Shape, two: &Shape) -> bool {
-    let axes = |shape: &Shape| [0, 1, 2].map(|axis| shape.scope.axes.col(axis));
+    let axes = |shape: &Shape| [0, 1, 2].map(|axis| shape.scope().axes.col(axis));
     let (own, others) = (axes(one), axes(two));
     let crossed = own.iter().flat_map(|a| others.iter().map(|b| a.cross(*b)));
-    let offset = two.scope.center() - one.scope.center();
+    let offset = two.scope().center() - one.scope().center();
     let half = |shape: &Shape, axes: &[DVec3; 3], along: DVec3| -> f64 {
-        (0..3).map(|axis| axes[axis].dot(along).abs() * shape.scope.size[axis] / 2.0).sum()
+        (0..3).map(|axis| axes[axis].dot(along).abs() * shape.scope().size[axis] / 2.0).sum()
     };
     own.iter()
         .chain(&others)
@@ -170,11 +170,11 @@ fn boxes_overlap(one: &Shape, two: &Shape) -> bool {
 ///
 /// Method: intersection of the parameter intervals between opposite planes.
 fn box_blocks(shape: &Shape, from: DVec3, to: DVec3) -> bool {
-    let (begin, end) = (shape.scope.local(from), shape.scope.local(to));
+    let (begin, end) = (shape.scope().local(from), shape.scope().local(to));
     let along = end - begin;
     let (mut first, mut last) = (0.0_f64, 1.0_f64);
     for axis in 0..3 {
-        let (low, high) = (CONTACT, shape.scope.size[axis] - CONTACT);
+        let (low, high) = (CONTACT, shape.scope().size[axis] - CONTACT);
         if along[axis].abs() < 1e-12 {
             if begin[axis] < low || begin[axis] > high {
                 return false;

@@ -7,6 +7,7 @@ use burgeon_geometry::Polygon;
 use glam::{DMat3, DVec3};
 
 use crate::body::{RECESS_FACES, TOP, recess_style};
+use crate::compact_scope::CompactScope;
 use crate::mesh::{PolygonFace, PolygonMesh};
 use crate::style::{FaceStyle, SharedStyle};
 use crate::trim_planes::TrimFace;
@@ -24,7 +25,7 @@ use crate::{Scope, ShapeBody};
 #[derive(Debug, Clone)]
 pub struct Shape {
     /// Coordinate system.
-    pub scope: Scope,
+    pub(crate) frame: CompactScope,
     /// Geometry.
     pub body: ShapeBody,
     /// Face of a solid that this face or part of a face was.
@@ -37,7 +38,13 @@ const THINNEST: f64 = 1e-6;
 impl Shape {
     /// Creates a shape of a body in a scope.
     pub(crate) fn new(scope: Scope, body: ShapeBody) -> Self {
-        Self { scope, body, trim: None }
+        Self { frame: scope.into(), body, trim: None }
+    }
+
+    /// Returns the coordinate system.
+    #[inline]
+    pub fn scope(&self) -> Scope {
+        self.frame.get()
     }
 
     /// Creates a box with a corner at the origin.
@@ -78,7 +85,7 @@ impl Shape {
 
     /// Returns the faces as a mesh.
     pub fn mesh(&self) -> Cow<'_, PolygonMesh> {
-        self.body.mesh(&self.scope)
+        self.body.mesh(&self.scope())
     }
 
     /// Returns true if every edge has the same number of faces in both directions.
@@ -93,7 +100,7 @@ impl Shape {
     /// Returns the enclosed volume (m³); 0 if the shape is open.
     pub fn volume(&self) -> f64 {
         match &self.body {
-            ShapeBody::Box(_) => self.scope.size.element_product(),
+            ShapeBody::Box(_) => self.scope().size.element_product(),
             ShapeBody::Mesh(mesh) if mesh.is_closed() => mesh.volume(),
             _ => 0.0,
         }
@@ -101,7 +108,7 @@ impl Shape {
 
     /// Returns the area (m²) of all faces.
     pub fn area(&self) -> f64 {
-        let size = self.scope.size;
+        let size = self.scope().size;
         match &self.body {
             ShapeBody::Box(_) => 2.0 * (size.x * size.y + size.y * size.z + size.z * size.x),
             ShapeBody::Recess(_) => size.x * size.y + 2.0 * size.z * (size.x + size.y),
@@ -115,8 +122,8 @@ impl Shape {
     pub fn normal(&self) -> DVec3 {
         match &self.body {
             ShapeBody::Mesh(mesh) => mesh.faces.first().map_or(DVec3::ZERO, |face| mesh.normal(face)),
-            ShapeBody::Box(_) => -self.scope.axes.z_axis,
-            ShapeBody::Rectangle(_) | ShapeBody::Recess(_) | ShapeBody::Edge(..) => self.scope.axes.z_axis,
+            ShapeBody::Box(_) => -self.scope().axes.z_axis,
+            ShapeBody::Rectangle(_) | ShapeBody::Recess(_) | ShapeBody::Edge(..) => self.scope().axes.z_axis,
         }
     }
 
@@ -124,14 +131,14 @@ impl Shape {
     pub fn centroid(&self) -> DVec3 {
         let mesh = match &self.body {
             ShapeBody::Mesh(_) | ShapeBody::Recess(_) => self.mesh(),
-            _ => return self.scope.center(),
+            _ => return self.scope().center(),
         };
         let (mut sum, mut area) = (DVec3::ZERO, 0.0);
         for (center, own) in mesh.faces.iter().map(|face| mesh.centroid(face)) {
             sum += center * own;
             area += own;
         }
-        if area > 0.0 { sum / area } else { self.scope.center() }
+        if area > 0.0 { sum / area } else { self.scope().center() }
     }
 
     /// Returns the styles of all faces.
@@ -168,7 +175,7 @@ impl Shape {
                 ShapeBody::Mesh(Arc::new(new))
             }
         };
-        Self { scope: self.scope, body, trim: self.trim.clone() }
+        Self { frame: self.frame.clone(), body, trim: self.trim.clone() }
     }
 
     /// Returns the approximate memory (bytes).
@@ -181,7 +188,7 @@ impl Shape {
     pub fn polygon(&self) -> Option<Polygon> {
         let mesh = self.mesh();
         let [face] = mesh.faces.as_slice() else { return None };
-        mesh.flat_polygon(face, self.scope.axes, self.scope.origin)
+        mesh.flat_polygon(face, self.scope().axes, self.scope().origin)
     }
 }
 

@@ -57,7 +57,7 @@ impl Shape {
     /// ```
     pub fn split(&self, axis: SplitAxis, sizes: &PartSizes) -> Result<SplitParts> {
         let axis = axis as usize;
-        let whole = self.scope.size[axis];
+        let whole = self.scope().size[axis];
         if whole <= 0.0 {
             let name = ["x", "y", "z"][axis];
             return Err(Error::argument(format!("the shape has no extent along {name}"))
@@ -74,15 +74,15 @@ impl Shape {
                     if number.is_multiple_of(STRETCH) {
                         Stop::check_current()?;
                     }
-                    let scope = self.scope.slab(axis, [part.from, part.to]);
+                    let frame = self.frame.slab(axis, [part.from, part.to]);
                     let body = ShapeBody::Box(styles.of(part.from <= 0.0, part.to >= whole));
-                    split.parts.push((part.entry, Self::new(scope, body)));
+                    split.parts.push((part.entry, Self { frame, body, trim: None }));
                 }
             }
             ShapeBody::Rectangle(_) | ShapeBody::Edge(..) if axis < 2 => {
                 split.parts.extend(parts.iter().map(|part| {
-                    let scope = self.scope.slab(axis, [part.from, part.to]);
-                    (part.entry, Self { scope, ..self.clone() })
+                    let frame = self.frame.slab(axis, [part.from, part.to]);
+                    (part.entry, Self { frame, body: self.body.clone(), trim: self.trim.clone() })
                 }));
             }
             _ => self.split_mesh(axis, &parts, &mut split)?,
@@ -98,8 +98,8 @@ impl Shape {
         split: &mut SplitParts,
     ) -> Result<()> {
         let mut rest = self.mesh().into_owned();
-        let normal = self.scope.axes.col(axis);
-        let start = self.scope.origin.dot(normal);
+        let normal = self.scope().axes.col(axis);
+        let start = self.scope().origin.dot(normal);
         for part in parts {
             Stop::check_current()?;
             // The rest begins where the last part ended.
@@ -107,7 +107,7 @@ impl Shape {
             split.open |= halves.open;
             if let Some(mesh) = halves.below {
                 MemoryOwner::ensure_room(mesh.memory())?;
-                split.parts.push((part.entry, Self::of_mesh(mesh, self.scope.axes).with_trim_of(self)));
+                split.parts.push((part.entry, Self::of_mesh(mesh, self.scope().axes).with_trim_of(self)));
             }
             let Some(above) = halves.above else { break };
             rest = above;
@@ -119,7 +119,7 @@ impl Shape {
     /// could not be closed.
     pub fn cut(&self, plane: &CutPlane) -> Result<([Option<Self>; 2], bool)> {
         let halves = plane.cut(&self.mesh(), &None)?;
-        let shape = |mesh| Self::of_mesh(mesh, self.scope.axes).with_trim_of(self);
+        let shape = |mesh| Self::of_mesh(mesh, self.scope().axes).with_trim_of(self);
         Ok(([halves.below.map(shape), halves.above.map(shape)], halves.open))
     }
 

@@ -57,7 +57,7 @@ impl Shape {
     ///
     /// // An image of 2 m by 1.5 m shows four windows side by side.
     /// let wall = Shape::rectangle(DVec2::new(6.0, 3.0));
-    /// let wall = wall.project(UvMap::of_plane(&wall.scope, [0, 1], DVec2::new(2.0, 1.5)));
+    /// let wall = wall.project(UvMap::of_plane(&wall.scope(), [0, 1], DVec2::new(2.0, 1.5)));
     /// let sizes = PartSizes(vec![SizedParts::Repeated(vec![PartSize::Absolute(0.25)])]);
     /// assert_eq!(wall.split_image(ImageAxis::U, &sizes)?.parts.len(), 12);
     /// # Ok::<(), burgeon_base::Error>(())
@@ -100,7 +100,7 @@ impl Shape {
             }
             if let Some(mesh) = join(pieces) {
                 MemoryOwner::ensure_room(mesh.memory())?;
-                split.parts.push((part.entry, Self::of_mesh(mesh, self.scope.axes).with_trim_of(self)));
+                split.parts.push((part.entry, Self::of_mesh(mesh, self.scope().axes).with_trim_of(self)));
             }
         }
         Ok(split)
@@ -165,7 +165,8 @@ mod tests {
     #[test]
     fn a_turned_image_is_cut_along_its_own_direction() {
         let wall = Shape::rectangle(DVec2::new(4.0, 4.0));
-        let map = UvMap::of_plane(&wall.scope, [0, 1], DVec2::splat(1.0)).rotate(std::f64::consts::FRAC_PI_4);
+        let map =
+            UvMap::of_plane(&wall.scope(), [0, 1], DVec2::splat(1.0)).rotate(std::f64::consts::FRAC_PI_4);
         let split = wall.project(map).split_image(ImageAxis::U, &repeat(2f64.sqrt())).expect("parts");
         let areas: Vec<f64> = split.parts.iter().map(|(_, part)| part.area()).collect();
         // Corner triangles have the legs 2, middle parts the rest of the half.
@@ -177,7 +178,7 @@ mod tests {
     #[test]
     fn parts_of_a_solid_with_one_projection_are_closed() {
         let mass = Shape::cuboid(DVec3::new(6.0, 4.0, 3.0));
-        let map = UvMap::of_plane(&mass.scope, [0, 2], DVec2::new(2.0, 3.0));
+        let map = UvMap::of_plane(&mass.scope(), [0, 2], DVec2::new(2.0, 3.0));
         let split = mass.project(map).split_image(ImageAxis::U, &repeat(1.0)).expect("parts");
         assert_eq!(split.parts.len(), 3);
         assert!(!split.open && split.parts.iter().all(|(_, part)| part.is_closed()));
@@ -190,7 +191,7 @@ mod tests {
     fn faces_with_their_own_projections_are_cut_separately() {
         let mass = Shape::cuboid(DVec3::new(6.0, 4.0, 3.0));
         let sides = mass.faces(&Selector::read("side").expect("a selector")).expect("faces");
-        let project = |face: &Shape| face.project(UvMap::of_plane(&face.scope, [0, 1], DVec2::splat(1.0)));
+        let project = |face: &Shape| face.project(UvMap::of_plane(&face.scope(), [0, 1], DVec2::splat(1.0)));
         let meshes = sides.iter().map(|face| project(face).mesh().into_owned()).collect();
         let band = Shape::of_mesh(join(meshes).expect("faces"), glam::DMat3::IDENTITY);
         let split = band.split_image(ImageAxis::V, &repeat(1.0)).expect("parts");

@@ -5,6 +5,7 @@ use std::sync::{Arc, OnceLock};
 use glam::{DAffine3, DVec3};
 use rustc_hash::FxHashMap;
 
+use crate::compact_scope::CompactScope;
 use crate::mesh::PolygonMesh;
 use crate::{CutPlane, Scope, ShapeBody};
 
@@ -26,9 +27,9 @@ pub struct TrimPlane {
 #[derive(Debug)]
 pub(crate) enum TrimSource {
     /// A box.
-    Box(Scope),
+    Box(CompactScope),
     /// A recess, by the scope of its box.
-    Recess(Scope),
+    Recess(CompactScope),
     /// A mesh, and the planes of each face, made by the first question.
     Mesh(Arc<PolygonMesh>, OnceLock<Vec<Vec<TrimPlane>>>),
     /// Another one, moved since the face was taken from it.
@@ -77,8 +78,8 @@ impl TrimSource {
     /// Returns the planes of the face with this number.
     fn planes(&self, face: usize) -> Vec<TrimPlane> {
         match self {
-            Self::Box(scope) => of_face(&ShapeBody::Box(None), scope, face),
-            Self::Recess(scope) => of_face(&ShapeBody::Recess(Arc::default()), scope, face),
+            Self::Box(scope) => of_face(&ShapeBody::Box(None), &scope.get(), face),
+            Self::Recess(scope) => of_face(&ShapeBody::Recess(Arc::default()), &scope.get(), face),
             Self::Mesh(mesh, planes) => {
                 planes.get_or_init(|| of_mesh(mesh, None)).get(face).cloned().unwrap_or_default()
             }

@@ -11,7 +11,7 @@ use crate::Scope;
 /// use glam::{DVec2, DVec3};
 ///
 /// let wall = Shape::rectangle(DVec2::new(6.0, 3.0));
-/// let map = UvMap::of_plane(&wall.scope, [0, 1], DVec2::new(2.0, 1.5));
+/// let map = UvMap::of_plane(&wall.scope(), [0, 1], DVec2::new(2.0, 1.5));
 /// assert_eq!(map.at(DVec3::new(6.0, 3.0, 0.0)), DVec2::new(3.0, 2.0));
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]

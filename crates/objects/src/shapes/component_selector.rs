@@ -42,7 +42,7 @@ impl ShapeObject {
         match selector.bit() {
             Some(bit) if self.matching != 0 => self.matching & bit != 0,
             _ => {
-                let (normal, axes) = (self.shape.normal(), &self.shape.scope.axes);
+                let (normal, axes) = (self.shape.normal(), &self.shape.scope().axes);
                 match &self.shape.body {
                     ShapeBody::Rectangle(style) => selector.matches(normal, style, axes),
                     _ => self.shape.styles().iter().any(|style| selector.matches(normal, style, axes)),

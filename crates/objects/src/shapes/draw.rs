@@ -74,8 +74,8 @@ fn draw(
         let help = "sweep a section along it: an extruder at its position, with its length";
         return Ok(Some(Warning::new(WarningKind::DrawsNothing, text).help(help)));
     }
-    let farthest =
-        transform.transform_point3(shape.scope.center()).abs().max_element() + shape.scope.size.max_element();
+    let farthest = transform.transform_point3(shape.scope().center()).abs().max_element()
+        + shape.scope().size.max_element();
     if farthest.is_nan() || farthest >= FARTHEST {
         return Err(Error::geometry(
             "the shape is more than 1e12 m away or large, beyond the range of coordinates",
@@ -88,7 +88,7 @@ fn draw(
         parts.dirt_set(style).is_none()
             && style.as_deref().is_none_or(|style| !style.is_projected() && style.smooth.is_none())
     };
-    if let Some(quads) = shape.body.quads(&shape.scope)
+    if let Some(quads) = shape.body.quads(&shape.scope())
         && quads.clone().all(|(_, style)| is_plain(style))
     {
         for (corners, style) in quads {
@@ -171,12 +171,17 @@ fn draw_quad(part: &mut Part, corners: [DVec3; 4]) -> Result<()> {
     }
     let axes = Scope::face_axes(normal, DMat3::IDENTITY);
     let base = first_vertex(part, 4)?;
-    part.make_room(4, 2);
+    part.make_room(4, 0);
     part.positions.extend(corners.map(|at| at.as_vec3()));
     part.normals.extend([Normal::from(normal); 4]);
     part.uvs.extend(corners.map(|at| in_plane(at, &axes).as_vec2()));
-    add_triangle(part, [base, base + 1, base + 2]);
-    add_triangle(part, [base, base + 2, base + 3]);
+    let [a, b, c, d] = corners.map(|at| at.as_vec3());
+    if a != b && b != c && c != d && d != a && a != c {
+        part.triangles.quad(base);
+    } else {
+        add_triangle(part, [base, base + 1, base + 2]);
+        add_triangle(part, [base, base + 2, base + 3]);
+    }
     Ok(())
 }
 

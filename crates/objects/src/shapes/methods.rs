@@ -28,35 +28,35 @@ use crate::MaterialOptions;
 impl ShapeObject {
     /// Returns the extent (m) along the axes of the scope.
     pub fn size(&self) -> DVec3 {
-        self.shape.scope.size
+        self.shape.scope().size
     }
 
     /// Returns the corner of the scope with the least coordinates (m).
     pub fn position(&self) -> DVec3 {
-        self.shape.scope.origin
+        self.shape.scope().origin
     }
 
     /// Returns the centre of the scope (m).
     pub fn center(&self) -> DVec3 {
-        self.shape.scope.center()
+        self.shape.scope().center()
     }
 
     /// Returns the direction of the x axis: along an edge, and to the right on a face seen from outside.
     pub fn x_axis(&self) -> DVec3 {
         // Turns -0 into 0.
-        self.shape.scope.axes.x_axis + DVec3::ZERO
+        self.shape.scope().axes.x_axis + DVec3::ZERO
     }
 
     /// Returns the direction of the y axis: upwards on a face.
     pub fn y_axis(&self) -> DVec3 {
         // Turns -0 into 0.
-        self.shape.scope.axes.y_axis + DVec3::ZERO
+        self.shape.scope().axes.y_axis + DVec3::ZERO
     }
 
     /// Returns the direction of the z axis: outwards on a face and an edge.
     pub fn z_axis(&self) -> DVec3 {
         // Turns -0 into 0.
-        self.shape.scope.axes.z_axis + DVec3::ZERO
+        self.shape.scope().axes.z_axis + DVec3::ZERO
     }
 
     /// Returns true if the shape is closed, so that it has a volume.
@@ -86,7 +86,7 @@ impl ShapeObject {
     /// Returns the length of an edge, or of the outlines of open faces (m); 0 for a solid.
     pub fn length(&self) -> f64 {
         if let ShapeBody::Edge(..) = self.shape.body {
-            return self.shape.scope.size.x;
+            return self.shape.scope().size.x;
         }
         let mesh = self.shape.mesh();
         mesh.open_edges().map(|[from, to]| mesh.at(from).distance(mesh.at(to))).sum()
@@ -111,7 +111,7 @@ impl ShapeObject {
     /// Returns the corners (m) in the order of the faces.
     pub fn points(&self) -> Vec<Vector> {
         if let ShapeBody::Edge(..) = self.shape.body {
-            let scope = &self.shape.scope;
+            let scope = &self.shape.scope();
             return vec![Vector(scope.origin), Vector(scope.point(scope.size))];
         }
         self.shape.mesh().points.iter().copied().map(Vector).collect()
@@ -273,7 +273,7 @@ impl ShapeObject {
     pub fn faces(&self, selector: Option<String>) -> Result<Vec<Arc<Self>>> {
         let mut faces = self.parts(self.shape.faces(&read_selector("faces", selector)?)?);
         for face in faces.iter_mut().filter_map(Arc::get_mut) {
-            face.matching = Selector::matching(face.shape.normal(), &self.shape.scope.axes);
+            face.matching = Selector::matching(face.shape.normal(), &self.shape.scope().axes);
         }
         Ok(faces)
     }
@@ -388,7 +388,8 @@ impl ShapeObject {
     /// Returns the volume that a zoning law allows over a horizontal face, at most `height` (m) high. `limits` has, by
     /// selectors of edges, { height (m), angle (degrees) }: up to the height an upright wall, then a slope inwards.
     pub fn envelope(&self, height: f64, limits: EnvelopeLimits) -> Result<Self> {
-        let by_edge = limits.by_edge(self.shape.scope.axes).map_err(|error| error.about("shape:envelope"))?;
+        let by_edge =
+            limits.by_edge(self.shape.scope().axes).map_err(|error| error.about("shape:envelope"))?;
         let solid = self.shape.envelope(height, by_edge).map_err(|error| error.about("shape:envelope"))?;
         Ok(self.with_shape(solid))
     }
@@ -480,15 +481,15 @@ impl ShapeObject {
 
     /// Returns the shape moved by an offset (m) along the axes of its scope.
     pub fn shift(&self, offset: Vector) -> Self {
-        self.with_shape(self.shape.translate(self.shape.scope.axes * offset.0))
+        self.with_shape(self.shape.translate(self.shape.scope().axes * offset.0))
     }
 
     /// Returns the shape rotated by `angle` (degrees) around an axis, the z axis of its scope unless given, through `point` (m,
     /// the centre of the scope unless given).
     pub fn rotate(&self, angle: f64, axis: Option<Vector>, point: Option<Vector>) -> Result<Self> {
         let axis =
-            axis.map_or(Ok(self.shape.scope.axes.z_axis), |axis| unit("shape:rotate: the axis", axis.0))?;
-        let point = point.map_or_else(|| self.shape.scope.center(), |point| point.0);
+            axis.map_or(Ok(self.shape.scope().axes.z_axis), |axis| unit("shape:rotate: the axis", axis.0))?;
+        let point = point.map_or_else(|| self.shape.scope().center(), |point| point.0);
         Ok(self.with_shape(self.shape.rotate(point, axis, angle.to_radians())))
     }
 
@@ -500,7 +501,7 @@ impl ShapeObject {
     /// Returns the shape mirrored at the plane through `point` (m, the centre of the scope unless given) with a normal.
     pub fn mirror(&self, normal: Vector, point: Option<Vector>) -> Result<Self> {
         let normal = unit("shape:mirror: the normal", normal.0)?;
-        let point = point.map_or_else(|| self.shape.scope.center(), |point| point.0);
+        let point = point.map_or_else(|| self.shape.scope().center(), |point| point.0);
         Ok(self.with_shape(self.shape.mirror(point, normal)))
     }
 
@@ -521,13 +522,13 @@ impl ShapeObject {
     /// Returns another shape, moved, turned and scaled so that its scope fills the scope of this one. An extent of 0
     /// keeps the size along this axis.
     pub fn fit(&self, other: Arc<Self>) -> Result<Self> {
-        let (own, others) = (&self.shape.scope, &other.shape.scope);
+        let (own, others) = (&self.shape.scope(), &other.shape.scope());
         let size = DVec3::from_array(
             [0, 1, 2].map(|axis| if own.size[axis] > 0.0 { own.size[axis] } else { others.size[axis] }),
         );
         let sized = other.shape.resize(size).map_err(|error| error.about("shape:fit"))?;
-        let turn = own.axes * sized.scope.axes.transpose();
-        let frame = DAffine3::from_mat3_translation(turn, own.origin - turn * sized.scope.origin);
+        let turn = own.axes * sized.scope().axes.transpose();
+        let frame = DAffine3::from_mat3_translation(turn, own.origin - turn * sized.scope().origin);
         Ok(other.with_shape(sized.transform(&frame)))
     }
 

@@ -102,7 +102,7 @@ pub(super) fn warn(method: &str, text: &str, help: &str) {
 impl ObjectContent for ShapeObject {
     fn equals(&self, other: &dyn Object) -> bool {
         let Some(other) = Self::of(other) else { return false };
-        self.shape.scope == other.shape.scope
+        self.shape.scope() == other.shape.scope()
             && self.values == other.values
             && self.place == other.place
             && self.matching == other.matching
@@ -118,7 +118,7 @@ impl ObjectContent for ShapeObject {
     }
 
     fn hash(&self, state: &mut dyn Hasher) {
-        let scope = &self.shape.scope;
+        let scope = &self.shape.scope();
         let numbers = scope.origin.to_array().into_iter().chain(scope.size.to_array());
         // One number for the hasher, since each call of it is a virtual one. The two zeros are equal.
         let mixed = numbers.fold(u64::from(self.place.index), |mixed, number| {
@@ -128,7 +128,7 @@ impl ObjectContent for ShapeObject {
     }
 
     fn text(&self) -> String {
-        let size = self.shape.scope.size;
+        let size = self.shape.scope().size;
         let round = |length: f64| (length * 1000.0).round() / 1000.0;
         let [x, y, z] = size.to_array().map(round);
         match &self.shape.body {

@@ -31,7 +31,7 @@ impl ShapeObject {
                     .help("give one for each edge, or a table of selectors"));
             }
         }
-        let by_edge = distances.by_edge(self.shape.scope.axes).map_err(|error| error.about(&name))?;
+        let by_edge = distances.by_edge(self.shape.scope().axes).map_err(|error| error.about(&name))?;
         self.shape.setback(by_edge).map_err(|error| error.about(&name))
     }
 

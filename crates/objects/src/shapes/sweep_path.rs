@@ -37,7 +37,7 @@ impl Parameter for SweepPoints {
         }
         let what = "a list of positions, such as { vec(0, 0, 1), vec(4, 0, 1) }, a curve or an edge";
         if let Ok(shape) = Arc::<ShapeObject>::read_value(&value) {
-            let scope = &shape.shape().scope;
+            let scope = &shape.shape().scope();
             return match &shape.shape().body {
                 ShapeBody::Edge(..) => Ok(Self::List(vec![scope.origin, scope.point(scope.size)])),
                 _ => Err(Expectation::new(what)),

@@ -90,7 +90,7 @@ impl ShapeObject {
             return Err(Error::argument(format!("shape:project: offset has {count} numbers"))
                 .help("write { u, v }, such as { 0.5, 0 }"));
         };
-        let scope: &Scope = &self.shape.scope;
+        let scope: &Scope = &self.shape.scope();
         let tile = DVec2::new(width.on(scope.size[axes[0]]), height.on(scope.size[axes[1]]));
         let map = UvMap { offset: DVec2::new(u, v), ..UvMap::of_plane(scope, axes, tile) };
         if options.set.as_ref().is_some_and(String::is_empty) {

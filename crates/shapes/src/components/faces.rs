@@ -19,11 +19,11 @@ impl Shape {
     ///
     /// let mass = Shape::cuboid(DVec3::new(10.0, 6.0, 3.0));
     /// let front = &mass.faces(&Selector::read("front")?)?[0];
-    /// assert_eq!((front.scope.size, front.scope.axes.z_axis), (DVec3::new(10.0, 3.0, 0.0), -DVec3::Y));
+    /// assert_eq!((front.scope().size, front.scope().axes.z_axis), (DVec3::new(10.0, 3.0, 0.0), -DVec3::Y));
     /// # Ok::<(), burgeon_base::Error>(())
     /// ```
     pub fn faces(&self, selector: &Selector) -> Result<Vec<Self>> {
-        let axes = &self.scope.axes;
+        let axes = &self.scope().axes;
         let source = self.trim_source();
         match &self.body {
             ShapeBody::Edge(..) => Ok(Vec::new()),
@@ -34,7 +34,7 @@ impl Shape {
                 let normals =
                     [-axes.z_axis, -axes.y_axis, axes.x_axis, axes.y_axis, -axes.x_axis, axes.z_axis];
                 let outwards = if matches!(self.body, ShapeBody::Box(_)) { 1.0 } else { -1.0 };
-                let quads = self.body.quads(&self.scope).into_iter().flatten();
+                let quads = self.body.quads(&self.scope()).into_iter().flatten();
                 let mut faces = Vec::with_capacity(normals.len());
                 for (number, ((corners, style), normal)) in quads.zip(normals).enumerate() {
                     let (style, normal) = (style.clone(), normal * outwards);
@@ -43,7 +43,7 @@ impl Shape {
                         let mut scope = Scope::around(own, corners);
                         scope.size.z = 0.0;
                         // A box that leans is not made of rectangles along these axes.
-                        let is_upright = (scope.size.x * scope.size.y - face_area(self.scope.size, number))
+                        let is_upright = (scope.size.x * scope.size.y - face_area(self.scope().size, number))
                             .abs()
                             <= 1e-9 * (1.0 + scope.size.x * scope.size.y);
                         faces.push(if is_upright {
@@ -86,7 +86,7 @@ impl Shape {
     /// Returns all faces that a selector matches as one shape with the same axes; `None` if there are none.
     pub fn join_faces(&self, selector: &Selector) -> Option<Self> {
         let mesh = self.mesh();
-        let axes = &self.scope.axes;
+        let axes = &self.scope().axes;
         let matching =
             |&face: &usize| selector.matches(mesh.normal(&mesh.faces[face]), &mesh.faces[face].style, axes);
         let part = mesh.select((0..mesh.faces.len()).filter(matching));
@@ -104,7 +104,7 @@ impl Shape {
                 builder.face([ring.as_slice()], &face.style);
                 holes.push(Self::of_mesh(
                     builder.build(),
-                    Scope::face_axes(mesh.normal(face), self.scope.axes),
+                    Scope::face_axes(mesh.normal(face), self.scope().axes),
                 ));
             }
         }
@@ -119,7 +119,7 @@ impl Shape {
         filled.faces.iter_mut().for_each(|face| face.rings.truncate(1));
         let count = filled.faces.len();
         let filled = PolygonMesh::new(filled.points, filled.faces).select(0..count);
-        Self { scope: self.scope, body: ShapeBody::Mesh(Arc::new(filled)), trim: self.trim.clone() }
+        Self { frame: self.frame.clone(), body: ShapeBody::Mesh(Arc::new(filled)), trim: self.trim.clone() }
     }
 }
 

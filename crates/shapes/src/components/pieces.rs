@@ -26,7 +26,7 @@ impl Shape {
         let mut pieces = Vec::with_capacity(groups.len());
         for group in groups {
             Stop::check_current()?;
-            pieces.push(Self::of_mesh(mesh.select(group), self.scope.axes).with_trim_of(self));
+            pieces.push(Self::of_mesh(mesh.select(group), self.scope().axes).with_trim_of(self));
         }
         Ok(pieces)
     }

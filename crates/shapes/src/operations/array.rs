@@ -83,8 +83,8 @@ impl Shape {
             if (points.len() + misses).is_multiple_of(256) {
                 Stop::check_current()?;
             }
-            let local = DVec3::new(stream.uniform(), stream.uniform(), stream.uniform()) * self.scope.size;
-            let at = self.scope.point(local);
+            let local = DVec3::new(stream.uniform(), stream.uniform(), stream.uniform()) * self.scope().size;
+            let at = self.scope().point(local);
             if keep(at)? {
                 points.push(at);
             } else {

@@ -36,7 +36,7 @@ impl Shape {
                 .help("use a distance other than 0"));
         }
         if let (ShapeBody::Rectangle(style), None) = (&self.body, direction) {
-            let mut scope = self.scope;
+            let mut scope = self.scope();
             scope.size.z = distance.abs();
             if distance < 0.0 {
                 scope.origin += scope.axes.z_axis * distance;
@@ -65,7 +65,7 @@ impl Shape {
                 .help("use a direction that leaves the plane"));
         }
         let solid = loft(&mesh, direction * distance, direction.dot(normal) * distance < 0.0);
-        Ok(Self::of_mesh(solid, self.scope.axes))
+        Ok(Self::of_mesh(solid, self.scope().axes))
     }
 
     /// Returns the solid between a face and its copy at `height` (m) along the normal, scaled by `scale` around the
@@ -94,7 +94,7 @@ impl Shape {
             collapse_top(&mut solid, mesh.points.len());
             solid
         };
-        Ok(Self::of_mesh(solid, self.scope.axes))
+        Ok(Self::of_mesh(solid, self.scope().axes))
     }
 
     /// Returns the inside of a recess of `depth` (m) behind the faces: the back and the sides, which look outwards, without
@@ -114,7 +114,7 @@ impl Shape {
         let mesh = solid.mesh();
         let inside =
             (0..mesh.faces.len()).filter(|&face| !FaceStyle::has_tag(&mesh.faces[face].style, EXTRUDED[0]));
-        let inside = Self::of_mesh(mesh.select(inside), self.scope.axes).reverse();
+        let inside = Self::of_mesh(mesh.select(inside), self.scope().axes).reverse();
         Ok(inside.with_styles(|style| {
             let tag = if FaceStyle::has_tag(style, EXTRUDED[1]) { "recess.side" } else { "recess.back" };
             FaceStyle::with_automatic_tag(&FaceStyle::without_tags(style, "extrude"), tag)
@@ -123,7 +123,7 @@ impl Shape {
 
     /// Returns the recess behind a rectangle: the most frequent recess, that of a window.
     fn rectangle_recess(&self, style: &SharedStyle, depth: f64) -> Self {
-        let Scope { origin, axes, size } = self.scope;
+        let Scope { origin, axes, size } = self.scope();
         let own = FaceStyle::without_tags(style, "extrude");
         let styles = ["recess.back", "recess.side"].map(|tag| FaceStyle::with_automatic_tag(&own, tag));
         let scope = Scope { origin: origin - axes.z_axis * depth, axes, size: size.with_z(depth) };

@@ -98,10 +98,10 @@ impl Shape {
     /// Returns the only face as a polygon, with the frame of its plane.
     pub(crate) fn single_face(&self, operation: &str) -> Result<(Polygon, Scope)> {
         let normal = self.normal();
-        let axes = if self.scope.axes.z_axis.dot(normal) > 1.0 - 1e-9 {
-            self.scope.axes
+        let axes = if self.scope().axes.z_axis.dot(normal) > 1.0 - 1e-9 {
+            self.scope().axes
         } else {
-            Scope::face_axes(normal, self.scope.axes)
+            Scope::face_axes(normal, self.scope().axes)
         };
         let mesh = self.mesh();
         let frame = Scope::around(axes, mesh.points.iter().copied());
@@ -175,7 +175,7 @@ impl Selector {
     /// Returns true for an edge of a face, whose z axis points outwards, of a shape with these axes.
     pub fn matches_edge(&self, edge: &Shape, axes: &glam::DMat3) -> bool {
         let style = edge.styles().into_iter().next().flatten();
-        self.matches(edge.scope.axes.z_axis, &style, axes)
+        self.matches(edge.scope().axes.z_axis, &style, axes)
     }
 }
 

@@ -44,7 +44,7 @@ impl Shape {
                 face
             }));
         }
-        Ok(Some((mesh, first.scope.axes)))
+        Ok(Some((mesh, first.scope().axes)))
     }
 
     /// Returns the shape with coplanar neighbouring faces of the same style joined, points on edges inserted there, and
@@ -56,7 +56,7 @@ impl Shape {
         let mut mesh = weld(&self.mesh(), SAME_POINT);
         insert_points_on_edges(&mut mesh)?;
         remove_opposite_faces(&mut mesh);
-        Ok(Self::of_mesh(merge_coplanar(&mesh)?, self.scope.axes))
+        Ok(Self::of_mesh(merge_coplanar(&mesh)?, self.scope().axes))
     }
 }
 

@@ -117,7 +117,7 @@ impl Shape {
             }
         }
         builder.face(high.iter().map(Vec::as_slice), &top);
-        Ok(Self::of_mesh(builder.build(), self.scope.axes))
+        Ok(Self::of_mesh(builder.build(), self.scope().axes))
     }
 }
 
@@ -156,7 +156,7 @@ mod tests {
     #[test]
     fn a_loft_between_a_square_and_a_turned_square_is_closed() {
         let face = Shape::rectangle(DVec2::new(2.0, 2.0));
-        let other = face.rotate(face.scope.center(), DVec3::Z, 0.4).translate(DVec3::Z * 3.0);
+        let other = face.rotate(face.scope().center(), DVec3::Z, 0.4).translate(DVec3::Z * 3.0);
         let solid = face.loft(&other).expect("a loft");
         assert!(solid.is_closed() && solid.body.faces() == 10, "{}", solid.body.faces());
         let straight = face.loft(&face.translate(DVec3::Z * 3.0)).expect("a loft");

@@ -54,7 +54,7 @@ impl Shape {
                 faces.push(PolygonFace::of(&ring, &face.style));
             }
         }
-        let divided = Self::of_mesh(PolygonMesh::new(mesh.points.clone(), faces), self.scope.axes);
+        let divided = Self::of_mesh(PolygonMesh::new(mesh.points.clone(), faces), self.scope().axes);
         Ok(divided.with_trim_of(self))
     }
 
@@ -225,7 +225,7 @@ mod tests {
         let whole = Shape::join(&[&table, &leg]).expect("joined").expect("a shape");
         let plan = whole.ground_plan(0.5).expect("a plan").expect("faces");
         assert!((plan.area() - 8.04).abs() < 1e-9 && plan.body.faces() == 2);
-        assert!((plan.scope.origin.z - 0.5).abs() < 1e-12 && plan.normal().z > 0.0);
+        assert!((plan.scope().origin.z - 0.5).abs() < 1e-12 && plan.normal().z > 0.0);
         let wall = Shape::rectangle(DVec2::ONE).rotate(DVec3::ZERO, DVec3::X, std::f64::consts::FRAC_PI_2);
         assert!(wall.ground_plan(0.0).expect("a plan").is_none());
         let ball = Shape::sphere(1.0, 16).expect("a ball");

@@ -24,7 +24,7 @@ impl Shape {
     /// use glam::{DVec2, DVec3};
     ///
     /// let wall = Shape::rectangle(DVec2::new(6.0, 3.0));
-    /// let map = |size: f64| UvMap::of_plane(&wall.scope, [0, 1], DVec2::splat(size));
+    /// let map = |size: f64| UvMap::of_plane(&wall.scope(), [0, 1], DVec2::splat(size));
     /// let wall = wall.project(map(1.0)).project_set(&"dirt".into(), map(3.0));
     /// let style = wall.styles()[0].clone().expect("a style");
     /// assert_eq!(style.set("dirt").map(|map| map.at(DVec3::new(6.0, 3.0, 0.0))), Some(DVec2::new(2.0, 1.0)));
@@ -61,18 +61,18 @@ mod tests {
     #[test]
     fn coordinates_stay_on_a_face_that_is_cut_and_moved() {
         let wall = Shape::rectangle(DVec2::new(6.0, 3.0));
-        let wall = wall.project(UvMap::of_plane(&wall.scope, [0, 1], DVec2::new(2.0, 1.5)).rotate(0.3));
+        let wall = wall.project(UvMap::of_plane(&wall.scope(), [0, 1], DVec2::new(2.0, 1.5)).rotate(0.3));
         let map = |shape: &Shape| shape.styles()[0].as_ref().and_then(|style| style.uv).expect("a map");
-        let corner = wall.scope.point(wall.scope.size);
+        let corner = wall.scope().point(wall.scope().size);
         let before = map(&wall).at(corner);
         let sizes = PartSizes(vec![SizedParts::Repeated(vec![PartSize::Flexible(1.0)])]);
         let part = &wall.split(SplitAxis::X, &sizes).expect("parts").parts[5].1;
         let frame = DAffine3::from_axis_angle(DVec3::new(0.6, 0.0, 0.8), 1.1);
         let moved = part.translate(DVec3::new(1.0, 2.0, 3.0)).transform(&frame);
-        let there = moved.scope.point(moved.scope.size);
+        let there = moved.scope().point(moved.scope().size);
         assert!((map(&moved).at(there) - before).length() < 1e-12);
         let wide = part.resize(DVec3::new(2.0, 3.0, 0.0)).expect("wider");
-        let end = wide.scope.point(wide.scope.size);
+        let end = wide.scope().point(wide.scope().size);
         assert!((map(&wide).at(end) - before).length() < 1e-12, "a stretched face stretches its image");
     }
 
@@ -80,7 +80,7 @@ mod tests {
     fn all_sets_stay_on_faces_that_operations_cut_move_and_join() {
         let set: Arc<str> = "dirt".into();
         let solid = Shape::cuboid(DVec3::new(6.0, 4.0, 3.0));
-        let map = |size: f64| UvMap::of_plane(&solid.scope, [0, 2], DVec2::splat(size));
+        let map = |size: f64| UvMap::of_plane(&solid.scope(), [0, 2], DVec2::splat(size));
         let solid = solid.project(map(1.0)).project_set(&set, map(2.0));
         let tool = Shape::cuboid(DVec3::new(2.0, 9.0, 2.0)).translate(DVec3::new(1.0, -1.0, 1.0));
         let cut = solid
@@ -108,7 +108,7 @@ mod tests {
 
     #[test]
     fn a_rotated_image_keeps_the_size_of_its_tiles() {
-        let scope = Shape::rectangle(DVec2::ONE).scope;
+        let scope = Shape::rectangle(DVec2::ONE).scope();
         let map = UvMap::of_plane(&scope, [0, 1], DVec2::new(2.0, 4.0)).rotate(std::f64::consts::FRAC_PI_2);
         // After a quarter turn, u runs upwards in tiles of 2 m.
         assert!((map.at(DVec3::new(0.0, 2.0, 0.0)) - DVec2::X).length() < 1e-12);

@@ -64,7 +64,7 @@ impl Shape {
             return Ok((self.clone(), 1.0));
         }
         let reduced = merge_coplanar(&PolygonMesh::new(mesh.points.clone(), faces))?;
-        Ok((Self::of_mesh(reduced, self.scope.axes), rest))
+        Ok((Self::of_mesh(reduced, self.scope().axes), rest))
     }
 }
 
@@ -318,7 +318,7 @@ mod tests {
             "{} {rest}",
             reduced.area()
         );
-        assert_eq!(reduced.scope.size.truncate(), glam::DVec2::new(4.0, 3.0));
+        assert_eq!(reduced.scope().size.truncate(), glam::DVec2::new(4.0, 3.0));
     }
 
     #[test]
@@ -339,7 +339,7 @@ mod tests {
                 mesh.faces[number].style.clone_from(&red);
             }
         }
-        let (reduced, _) = Shape::of_mesh(mesh, ball.scope.axes).reduce(0.2).expect("fewer triangles");
+        let (reduced, _) = Shape::of_mesh(mesh, ball.scope().axes).reduce(0.2).expect("fewer triangles");
         assert!(reduced.is_closed());
         let mesh = reduced.mesh();
         for face in &mesh.faces {

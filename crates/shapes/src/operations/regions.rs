@@ -33,8 +33,8 @@ impl Shape {
             );
         }
         let axis = axis as usize;
-        let normal = self.scope.axes.col(axis);
-        let (start, length) = (self.scope.origin.dot(normal), self.scope.size[axis]);
+        let normal = self.scope().axes.col(axis);
+        let (start, length) = (self.scope().origin.dot(normal), self.scope().size[axis]);
         let mut split = SplitParts::default();
         let divided = areas.divide(self.area(), MOST_PARTS)?;
         (split.rest, split.missing) = (divided.rest, divided.missing);
@@ -80,10 +80,10 @@ impl Shape {
                 return Err(Error::argument(format!("a limit of {height} m and {degrees} degrees"))
                     .help("use a height from 0, and an angle above 0 and up to 90 degrees"));
             }
-            let outward = edge.scope.axes.z_axis;
+            let outward = edge.scope().axes.z_axis;
             // Rises inwards at the angle.
             let normal = (outward * angle.sin() + DVec3::Z * angle.cos()).normalize();
-            let plane = CutPlane::through(edge.scope.origin + DVec3::Z * height, normal);
+            let plane = CutPlane::through(edge.scope().origin + DVec3::Z * height, normal);
             let ([below, _], _) = solid.cut(&plane)?;
             solid = below
                 .ok_or_else(|| Error::geometry("nothing remains of the envelope").help("raise the limits"))?;
@@ -138,9 +138,9 @@ impl Shape {
     pub fn crop(&self, low: DVec2, high: DVec2) -> Result<Option<Self>> {
         let mut rest = self.clone();
         for (axis, at, sign) in [(0, low.x, -1.0), (0, high.x, 1.0), (1, low.y, -1.0), (1, high.y, 1.0)] {
-            let normal = self.scope.axes.col(axis);
+            let normal = self.scope().axes.col(axis);
             let plane =
-                CutPlane { normal: normal * sign, offset: sign * (self.scope.origin.dot(normal) + at) };
+                CutPlane { normal: normal * sign, offset: sign * (self.scope().origin.dot(normal) + at) };
             let ([below, _], _) = rest.cut(&plane)?;
             let Some(below) = below else { return Ok(None) };
             rest = below;
@@ -150,7 +150,7 @@ impl Shape {
 
     /// Returns the shape with a scope whose x axis runs along a direction in the plane of its z axis.
     pub(super) fn along(&self, x: DVec3) -> Self {
-        let z = self.scope.axes.z_axis;
+        let z = self.scope().axes.z_axis;
         self.align(DMat3::from_cols(x, z.cross(x), z))
     }
 }
@@ -271,7 +271,7 @@ mod tests {
     fn an_envelope_is_cut_by_the_planes_of_its_edges() {
         let lot = Shape::rectangle(DVec2::new(10.0, 20.0));
         let front = |edge: &Shape| {
-            (edge.scope.axes.z_axis.y < -0.5)
+            (edge.scope().axes.z_axis.y < -0.5)
                 .then_some(EnvelopeLimit { height: 6.0, angle: std::f64::consts::FRAC_PI_4 })
         };
         let solid = lot.envelope(12.0, front).expect("an envelope");

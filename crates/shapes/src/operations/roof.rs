@@ -63,6 +63,6 @@ impl Shape {
         let remarks = hips.into_iter().chain(cover.remark).collect();
         let world = |at: DVec2| frame.point(at.extend(0.0)).truncate();
         let unused = cover.unused.iter().map(|line| UnusedLine { at: world(line.at), ..*line }).collect();
-        Ok(ShapeRoof { shape: Self::of_mesh(builder.build(), self.scope.axes), remarks, unused })
+        Ok(ShapeRoof { shape: Self::of_mesh(builder.build(), self.scope().axes), remarks, unused })
     }
 }

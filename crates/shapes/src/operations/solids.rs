@@ -173,7 +173,7 @@ impl Shape {
         if mesh.faces.iter().flat_map(|face| face.edges()).all(|edge| sides.insert(edge)) {
             return Ok(true);
         }
-        let (points, corners, faces) = triangles(self, self.scope.center(), "bool.a", &mut Vec::new())?;
+        let (points, corners, faces) = triangles(self, self.scope().center(), "bool.a", &mut Vec::new())?;
         let check = || Manifold::new_with_values(&points, &corners, &faces).is_ok();
         Ok(catch_unwind(AssertUnwindSafe(check)).unwrap_or(false))
     }
@@ -186,7 +186,7 @@ impl Shape {
         operation: SolidOperation,
         turns: usize,
     ) -> Result<std::result::Result<AttemptOutcome, String>> {
-        let center = self.scope.center();
+        let center = self.scope().center();
         let mut sources: Vec<SourceFace> = Vec::new();
         let mut one = triangles(self, center, "bool.a", &mut sources)?;
         let first_of_two = sources.len();
@@ -270,7 +270,7 @@ impl Shape {
         if !mesh.is_fillable() {
             return Ok(Err("a face is too narrow".into()));
         }
-        Ok(Ok(AttemptOutcome { solid: Some(Self::of_mesh(mesh, self.scope.axes)), is_in_faces }))
+        Ok(Ok(AttemptOutcome { solid: Some(Self::of_mesh(mesh, self.scope().axes)), is_in_faces }))
     }
 
     /// Returns true if nothing is the result of an operation on two solids.
@@ -301,12 +301,12 @@ impl Shape {
     /// Returns the least and the greatest coordinates (m) in the world.
     pub fn bounds(&self) -> [DVec3; 2] {
         let around = |points: &[DVec3]| {
-            let first = points.first().copied().unwrap_or(self.scope.origin);
+            let first = points.first().copied().unwrap_or(self.scope().origin);
             points.iter().fold([first; 2], |[low, high], at| [low.min(*at), high.max(*at)])
         };
         match &self.body {
             crate::ShapeBody::Mesh(mesh) => around(&mesh.points),
-            _ => around(&self.scope.corners()),
+            _ => around(&self.scope().corners()),
         }
     }
 }
@@ -389,7 +389,7 @@ fn weld_solid(shape: &Shape) -> Option<Shape> {
     remove_opposite_faces(&mut joined);
     let is_other = joined.points.len() != mesh.points.len() || joined.faces.len() != mesh.faces.len();
     (is_other && !joined.faces.is_empty() && joined.is_closed())
-        .then(|| Shape::of_mesh(joined, shape.scope.axes))
+        .then(|| Shape::of_mesh(joined, shape.scope().axes))
 }
 
 /// Returns a closed mesh with points that almost coincide joined, unless that opens it.

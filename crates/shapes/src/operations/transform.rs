@@ -11,7 +11,7 @@ impl Shape {
     /// Returns the shape moved by `offset` (m).
     #[must_use]
     pub fn translate(&self, offset: DVec3) -> Self {
-        let scope = Scope { origin: self.scope.origin + offset, ..self.scope };
+        let scope = Scope { origin: self.scope().origin + offset, ..self.scope() };
         let body = match &self.body {
             ShapeBody::Mesh(mesh) => ShapeBody::Mesh(Arc::new(mesh.translate(|at| at + offset, false))),
             other => other.clone(),
@@ -25,8 +25,11 @@ impl Shape {
     pub fn rotate(&self, center: DVec3, axis: DVec3, angle: f64) -> Self {
         let turn = DMat3::from_axis_angle(axis, angle);
         let place = |at: DVec3| center + turn * (at - center);
-        let scope =
-            Scope { origin: place(self.scope.origin), axes: turn * self.scope.axes, size: self.scope.size };
+        let scope = Scope {
+            origin: place(self.scope().origin),
+            axes: turn * self.scope().axes,
+            size: self.scope().size,
+        };
         let body = match &self.body {
             ShapeBody::Mesh(mesh) => ShapeBody::Mesh(Arc::new(mesh.translate(place, false))),
             other => other.clone(),
@@ -39,7 +42,7 @@ impl Shape {
     ///
     /// Fails if a size is not above 0.
     pub fn resize(&self, size: DVec3) -> Result<Self> {
-        let old = self.scope.size;
+        let old = self.scope().size;
         let mut factor = DVec3::ONE;
         for axis in 0..3 {
             if old[axis] > 0.0 {
@@ -51,16 +54,17 @@ impl Shape {
                 factor[axis] = size[axis] / old[axis];
             }
         }
-        let scope = self.scope.with_size(old * factor);
+        let scope = self.scope().with_size(old * factor);
         let body = match &self.body {
             ShapeBody::Mesh(mesh) => {
-                let scaled = mesh.translate(|at| self.scope.point(self.scope.local(at) * factor), false);
+                let scaled = mesh.translate(|at| self.scope().point(self.scope().local(at) * factor), false);
                 ShapeBody::Mesh(Arc::new(scaled))
             }
             other => other.clone(),
         };
-        let stretch = self.scope.axes * DMat3::from_diagonal(factor) * self.scope.axes.transpose();
-        let frame = DAffine3::from_mat3_translation(stretch, self.scope.origin - stretch * self.scope.origin);
+        let stretch = self.scope().axes * DMat3::from_diagonal(factor) * self.scope().axes.transpose();
+        let frame =
+            DAffine3::from_mat3_translation(stretch, self.scope().origin - stretch * self.scope().origin);
         Ok(Self::new(scope, body).with_trim_moved(self, &frame).with_uv_moved(&frame))
     }
 
@@ -69,7 +73,7 @@ impl Shape {
     pub fn transform(&self, frame: &DAffine3) -> Self {
         let mirrors = frame.matrix3.determinant() < 0.0;
         let mesh = self.mesh().translate(|at| frame.transform_point3(at), mirrors);
-        Self::of_mesh(mesh, if mirrors { self.scope.axes } else { frame.matrix3 * self.scope.axes })
+        Self::of_mesh(mesh, if mirrors { self.scope().axes } else { frame.matrix3 * self.scope().axes })
             .with_trim_moved(self, frame)
             .with_uv_moved(frame)
     }
@@ -81,7 +85,7 @@ impl Shape {
         let turn = DMat3::from_cols(DVec3::X, DVec3::Y, DVec3::Z)
             - DMat3::from_cols(normal * normal.x, normal * normal.y, normal * normal.z) * 2.0;
         let frame = DAffine3::from_mat3_translation(turn, place(DVec3::ZERO));
-        Self::of_mesh(self.mesh().translate(place, true), self.scope.axes)
+        Self::of_mesh(self.mesh().translate(place, true), self.scope().axes)
             .with_trim_moved(self, &frame)
             .with_uv_moved(&frame)
     }
@@ -92,8 +96,8 @@ impl Shape {
         let mesh = self.mesh().translate(|at| at, true);
         // The z axis of a face stays outwards.
         let axes = match mesh.faces.as_slice() {
-            [face] => Scope::face_axes(mesh.normal(face), self.scope.axes),
-            _ => self.scope.axes,
+            [face] => Scope::face_axes(mesh.normal(face), self.scope().axes),
+            _ => self.scope().axes,
         };
         Self::of_mesh(mesh, axes)
     }

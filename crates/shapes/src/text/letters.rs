@@ -37,7 +37,7 @@ impl Shape {
     /// let layout = TextLayout { size: 1.0, align: TextAlign::Left, spacing: 0.0, line_height: None, tolerance: 0.002 };
     /// let (text, remarks) = Shape::text("HI", &Font::default(), &layout)?;
     /// assert!(remarks.missing.is_empty());
-    /// assert_eq!((text.body.faces(), text.scope.size.y), (2, 1.0));
+    /// assert_eq!((text.body.faces(), text.scope().size.y), (2, 1.0));
     /// # Ok::<(), burgeon_base::Error>(())
     /// ```
     pub fn text(text: &str, font: &Font, layout: &TextLayout) -> Result<(Self, TextRemarks)> {
@@ -162,13 +162,13 @@ mod tests {
     fn a_text_has_the_size_of_its_capitals_and_is_aligned() {
         for (align, middle) in [(TextAlign::Left, 0.5), (TextAlign::Center, 0.0), (TextAlign::Right, -0.5)] {
             let (shape, _) = text("HOUSE", &TextLayout { size: 2.0, align, ..layout() });
-            assert!((shape.scope.size.y - 2.0).abs() < 0.1, "{}", shape.scope.size.y);
-            let center = shape.scope.center().x / shape.scope.size.x;
+            assert!((shape.scope().size.y - 2.0).abs() < 0.1, "{}", shape.scope().size.y);
+            let center = shape.scope().center().x / shape.scope().size.x;
             assert!((center - middle).abs() < 0.05, "{align:?} {center}");
         }
-        let wide = text("HOUSE", &TextLayout { spacing: 0.5, ..layout() }).0.scope.size.x;
-        assert!((wide - text("HOUSE", &layout()).0.scope.size.x - 2.0).abs() < 1e-9);
-        let tall = text("H\nH", &TextLayout { line_height: Some(3.0), ..layout() }).0.scope.size.y;
+        let wide = text("HOUSE", &TextLayout { spacing: 0.5, ..layout() }).0.scope().size.x;
+        assert!((wide - text("HOUSE", &layout()).0.scope().size.x - 2.0).abs() < 1e-9);
+        let tall = text("H\nH", &TextLayout { line_height: Some(3.0), ..layout() }).0.scope().size.y;
         assert!((tall - 4.0).abs() < 1e-9, "{tall}");
     }
 

@@ -15,7 +15,7 @@ pub(super) fn wedge(
     distance: f64,
     segments: u32,
 ) -> Result<Option<Shape>> {
-    let scope = &edge.scope;
+    let scope = &edge.scope();
     let along = scope.axes.x_axis;
     let [two, one] = normals;
     // At a convex edge, the other face goes down from the first one.
