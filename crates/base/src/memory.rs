@@ -6,7 +6,7 @@ use crate::account::MemoryOwner;
 const LARGE: usize = 2 << 20;
 /// Minimum size (bytes) of arrays with exact capacity that get huge pages. The unused part of a huge page is small in
 /// comparison.
-const LARGE_AND_EXACT: usize = 16 << 20;
+const LARGE_AND_EXACT: usize = 8 << 20;
 /// Size (bytes) from which the program's allocator, like most, maps arrays directly from the system. Mapped arrays grow
 /// without being copied.
 pub const MAPPED: usize = 16 << 20;

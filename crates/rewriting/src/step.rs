@@ -350,6 +350,10 @@ fn append<T: Copy>(array: &mut Vec<T>, items: &[T], [read, all]: [usize; 2]) {
     if array.is_empty() || length > array.capacity() {
         let expected = length.saturating_mul(all) / read.max(1);
         let expected = expected.min(4 * array.capacity().max(length)).max(length);
+        if array.is_empty() && expected > array.capacity() {
+            // Growth would copy what earlier steps left.
+            *array = Vec::new();
+        }
         make_exact_room(array, expected + expected / 16 - array.len());
     }
     array.extend_from_slice(items);

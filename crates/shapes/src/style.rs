@@ -146,6 +146,9 @@ impl FaceStyle {
 ///
 /// `*` stands for any characters and `?` for one, within a level. Linear in the length of the tag per star.
 pub(crate) fn matches_tag(pattern: &str, tag: &str) -> bool {
+    if !pattern.bytes().any(|byte| matches!(byte, b'*' | b'?')) {
+        return tag.strip_prefix(pattern).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'));
+    }
     let mut levels = tag.split('.');
     pattern.split('.').all(|wanted| levels.next().is_some_and(|level| matches_level(wanted, level)))
 }

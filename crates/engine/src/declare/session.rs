@@ -18,6 +18,7 @@ use super::scripts::{ScriptFiles, SourceFile, own_params, read_stdlib, unreadabl
 use super::types::DeclaredTypes;
 use crate::queries::{ChainView, RowCache};
 use burgeon_base::error::{Error, Result};
+use burgeon_base::memory::make_room;
 use burgeon_base::warning::{Warning, Warnings};
 use burgeon_base::{locks::LockRecovery, stop::Stop};
 use burgeon_kit::Values;
@@ -103,7 +104,8 @@ pub struct Session {
     facts: ScriptFacts,
     /// Set once a placeholder module has been made.
     pending: AtomicBool,
-    kept: Mutex<Vec<f64>>,
+    /// Handles of the values in the chains of earlier systems.
+    kept: Mutex<Vec<u32>>,
     /// Number of texts that scripts have printed.
     prints: AtomicUsize,
     /// Names of the parameters that the script's own files declare, as far as static analysis finds them.
@@ -493,18 +495,19 @@ impl Session {
         if self.values.is_empty() {
             return;
         }
-        let boxed = params.iter().filter(|stored| stored.is_nan());
-        self.kept.lock().recover().extend(boxed);
+        let handles = Values::handles(params);
+        let mut kept = self.kept.lock().recover();
+        make_room(&mut *kept, handles.clone().count());
+        kept.extend(handles);
     }
 
     /// Drops the values that neither `params` nor earlier systems refer to, if there are many values or
     /// memory is scarce.
     pub(crate) fn forget_unused(&self, params: &[f64]) {
         let kept = self.kept.lock().recover();
-        let columns = [params, &kept];
         match self.stop.memory() {
-            Some(memory) if memory.is_half_full() => self.values.retain_if_new(&columns),
-            _ => self.values.retain_if_many(&columns),
+            Some(memory) if memory.is_half_full() => self.values.retain_if_new(params, &kept),
+            _ => self.values.retain_if_many(params, &kept),
         }
     }
 

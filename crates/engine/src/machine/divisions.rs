@@ -8,13 +8,15 @@ use mlua::{Function, Lua, Table, Value as LuaValue};
 use super::Machine;
 use super::object_methods::values;
 use burgeon_base::warning::take_deferred;
-use burgeon_kit::{Call, IntoParts, Kind, Object, PartMaker, ReadCall, Value};
+use burgeon_kit::{Call, IntoParts, Kind, Object, PartMaker, ReadCall, Value, Values};
 use burgeon_rewriting::{ColumnValue, Successors, Symbol};
 
 /// Maximum number of modules that one application makes.
 const MOST_MODULES: usize = 1 << 24;
 /// Number of applications between two checks for cancellation.
 const STRETCH: usize = 64;
+/// Number of parts that are stored together.
+const MANY_PARTS: usize = 4096;
 
 /// Rule that calls methods of one of its parameters, divides the result, and makes modules of the parts. Everything but the
 /// parameters is constant.
@@ -100,7 +102,7 @@ impl DivisionRule {
         let rows = || arguments.chunks_exact(count);
         let objects = session.values.objects(rows().map(|row| row[divided]))?;
         let constants: Vec<Option<Vec<f64>>> = self.pack_constants(machine);
-        let (mut parts, mut places) = (Vec::new(), Vec::new());
+        let mut stored = StoredParts::default();
         take_deferred();
         for (number, (object, row)) in objects.into_iter().zip(rows()).enumerate() {
             if number.is_multiple_of(STRETCH) {
@@ -118,7 +120,7 @@ impl DivisionRule {
                 let entry = entry as usize;
                 let Some(module) = self.modules.get(entry)? else { continue };
                 made.symbols.push(module.symbol);
-                places.push(made.params.len());
+                stored.add(part, made.params.len());
                 made.params.push(0.0);
                 made.params.extend(constants[entry].iter().flatten());
                 let start = made.params.len() - module.more.len();
@@ -130,8 +132,8 @@ impl DivisionRule {
                         made.params[place] = given?;
                     }
                 }
-                parts.push(part);
             }
+            stored.store_if_many(&session.values, &mut made.params);
             if made.symbols.len() > session.options.limits.modules {
                 return None;
             }
@@ -141,9 +143,7 @@ impl DivisionRule {
         if !take_deferred().is_empty() {
             return None;
         }
-        for (place, handle) in places.into_iter().zip(session.values.store_objects(parts)) {
-            made.params[place] = ColumnValue::Handle(handle).pack();
-        }
+        stored.store(&session.values, &mut made.params);
         Some(())
     }
 
@@ -155,6 +155,34 @@ impl DivisionRule {
         };
         let of = |module: &PartModule| module.more.iter().map(pack).collect();
         self.modules.iter().map(|module| module.as_ref().map(of)).collect()
+    }
+}
+
+/// Parts that are not stored yet, and their places among the parameters of the modules that are made.
+#[derive(Default)]
+struct StoredParts {
+    parts: Vec<Arc<dyn Object>>,
+    places: Vec<usize>,
+}
+
+impl StoredParts {
+    fn add(&mut self, part: Arc<dyn Object>, place: usize) {
+        self.parts.push(part);
+        self.places.push(place);
+    }
+
+    /// Stores the parts if there are so many that the next ones should reuse their memory.
+    fn store_if_many(&mut self, values: &Values, params: &mut [f64]) {
+        if self.parts.len() >= MANY_PARTS {
+            self.store(values, params);
+        }
+    }
+
+    /// Stores the parts, and writes their handles to `params`.
+    fn store(&mut self, values: &Values, params: &mut [f64]) {
+        for (place, handle) in self.places.drain(..).zip(values.store_objects(self.parts.drain(..))) {
+            params[place] = ColumnValue::Handle(handle).pack();
+        }
     }
 }
 

@@ -8,6 +8,7 @@ use rustc_hash::{FxBuildHasher, FxHashMap};
 
 use crate::{Object, Value};
 use burgeon_base::locks::LockRecovery;
+use burgeon_base::memory::make_room;
 use burgeon_rewriting::{ColumnValue, ShowParameters};
 
 /// Strings, tables and objects in the modules of one derivation, each stored once.
@@ -44,6 +45,7 @@ impl Slots {
             self.list[handle as usize] = Some(value);
             return handle;
         }
+        make_room(&mut self.list, 1);
         self.list.push(Some(value));
         u32::try_from(self.list.len() - 1).unwrap_or(u32::MAX)
     }
@@ -126,21 +128,31 @@ impl Values {
         self.len() == 0
     }
 
-    /// Drops all values that `columns` do not contain, if many values were added since the last time.
+    /// Returns the handles of the values that numbers of a column represent.
+    pub fn handles(column: &[f64]) -> impl Iterator<Item = u32> + Clone {
+        column.iter().filter(|stored| stored.is_nan()).filter_map(|stored| {
+            match ColumnValue::unpack(*stored) {
+                ColumnValue::Handle(handle) => Some(handle),
+                _ => None,
+            }
+        })
+    }
+
+    /// Drops all values that neither `column` nor the handles `kept` contain, if many values were added since the last time.
     ///
     /// A dropped handle can be reused for another value. Caches of handles must be emptied when [`Values::epoch`] has
     /// changed.
-    pub fn retain_if_many(&self, columns: &[&[f64]]) {
+    pub fn retain_if_many(&self, column: &[f64], kept: &[u32]) {
         if self.has_many_new(false) {
-            self.retain(columns);
+            self.retain(column, kept);
         }
     }
 
     /// Drops unused values like [`Values::retain_if_many`], but even after a few additions, for runs with little memory
     /// left.
-    pub fn retain_if_new(&self, columns: &[&[f64]]) {
+    pub fn retain_if_new(&self, column: &[f64], kept: &[u32]) {
         if self.has_many_new(true) {
-            self.retain(columns);
+            self.retain(column, kept);
         }
     }
 
@@ -156,21 +168,20 @@ impl Values {
         self.epoch.load(Ordering::Acquire)
     }
 
-    fn retain(&self, columns: &[&[f64]]) {
+    fn retain(&self, column: &[f64], kept: &[u32]) {
         self.epoch.fetch_add(1, Ordering::AcqRel);
         let mut slots = self.slots.write().recover();
-        let mut used = vec![false; slots.list.len()];
-        for stored in columns.iter().copied().flatten().filter(|stored| stored.is_nan()) {
-            if let ColumnValue::Handle(handle) = ColumnValue::unpack(*stored)
-                && let Some(slot) = used.get_mut(handle as usize)
-            {
-                *slot = true;
+        let Slots { list, handles, free } = &mut *slots;
+        let mut used = vec![false; list.len()];
+        for handle in Self::handles(column).chain(kept.iter().copied()) {
+            if let Some(used) = used.get_mut(handle as usize) {
+                *used = true;
             }
         }
-        for (handle, used) in (0u32..).zip(used) {
-            if !used && let Some(value) = slots.list[handle as usize].take() {
-                slots.handles.remove(&HashedValue::new(value));
-                slots.free.push(handle);
+        handles.retain(|_, handle| used[*handle as usize]);
+        for ((handle, slot), used) in (0u32..).zip(list).zip(used) {
+            if !used && slot.take().is_some() {
+                free.push(handle);
             }
         }
         drop(slots);
@@ -240,8 +251,14 @@ mod tests {
         assert_eq!((values.find_text("b"), values.len()), (None, 1));
         values.pack(Value::Text("b".into()));
         assert_eq!(values.len(), 2);
-        values.retain(&[&[1.0, a]]);
+        values.retain(&[1.0, a], &[]);
         assert_eq!(values.len(), 1);
         assert!(values.unpack(a) == Value::Text("a".into()));
+        let kept: Vec<u32> = Values::handles(&[a, 2.0]).collect();
+        values.pack(Value::Text("c".into()));
+        values.retain(&[], &kept);
+        assert_eq!((values.len(), values.find_text("c")), (1, None));
+        values.retain(&[], &[]);
+        assert_eq!((values.len(), values.find_text("a")), (0, None));
     }
 }

@@ -142,19 +142,20 @@ impl SystemDeclaration {
         symbols: impl Iterator<Item = Symbol>,
         returned: &BTreeSet<Symbol>,
     ) -> Vec<(Symbol, Warning)> {
-        let mut open: Vec<(Symbol, Warning)> = (FIRST_SYMBOL..)
+        let open: Vec<(Symbol, Warning)> = (FIRST_SYMBOL..)
             .take(library.symbols.borrow().names().count())
             .filter_map(|symbol| Some((symbol, self.warning_of(library, symbol)?)))
             .collect();
-        let mut found: Vec<(Symbol, Warning)> = Vec::new();
-        for symbol in symbols.chain(returned.iter().copied()) {
-            if open.is_empty() {
-                break;
-            }
-            if let Some(index) = open.iter().position(|(other, _)| *other == symbol) {
-                found.push(open.swap_remove(index));
+        let mut occurs = vec![false; open.last().map_or(0, |(symbol, _)| usize::from(*symbol) + 1)];
+        if !open.is_empty() {
+            for symbol in symbols.chain(returned.iter().copied()) {
+                if let Some(occurs) = occurs.get_mut(usize::from(symbol)) {
+                    *occurs = true;
+                }
             }
         }
+        let mut found: Vec<(Symbol, Warning)> =
+            open.into_iter().filter(|(symbol, _)| occurs[usize::from(*symbol)]).collect();
         found.extend(returned.iter().filter(|symbol| self.begins_subsystem(**symbol)).map(|symbol| {
             let symbols = library.symbols.borrow();
             let name = symbols.display_name(*symbol);
