@@ -1,5 +1,7 @@
 //! Lists of triangles in which tubes are stored as rings and rectangles as their corners.
 
+mod fewer_sides;
+
 use std::ops::Range;
 
 use burgeon_base::memory::make_room;
@@ -36,14 +38,17 @@ struct TriangleSpan {
 enum FacePattern {
     /// Triangles of the list, from an index on.
     Listed(u32),
+    /// Faces between two rings. The stride is the step from one corner of a ring to the next.
     Band {
         from: u32,
         to: u32,
         sides: u16,
+        stride: u8,
     },
     Fan {
         first: u32,
         turned: bool,
+        stride: u8,
     },
     /// Pairs of triangles, each with four corners that follow those of the last pair.
     Quads {
@@ -91,7 +96,7 @@ impl Triangles {
     #[inline]
     pub fn band(&mut self, from: u32, to: u32, sides: u16) {
         if sides > 0 {
-            self.begin(FacePattern::Band { from, to, sides });
+            self.begin(FacePattern::Band { from, to, sides, stride: 1 });
             self.count += 2 * usize::from(sides);
         }
     }
@@ -101,7 +106,7 @@ impl Triangles {
     #[inline]
     pub fn fan(&mut self, first: u32, corners: u16, turned: bool) {
         if corners > 2 {
-            self.begin(FacePattern::Fan { first, turned });
+            self.begin(FacePattern::Fan { first, turned, stride: 1 });
             self.count += usize::from(corners) - 2;
         }
     }
@@ -204,10 +209,12 @@ impl Triangles {
             let until = self.runs.get(index + 1).map_or(self.count, |run| run.first as usize);
             let is_whole = place == run.first as usize && until <= end;
             match run.faces {
-                FacePattern::Band { from, to, sides } if is_whole => {
-                    join(from.min(to), from.max(to) + u32::from(sides));
+                FacePattern::Band { from, to, sides, stride } if is_whole => {
+                    join(from.min(to), from.max(to) + u32::from(sides) * u32::from(stride));
                 }
-                FacePattern::Fan { first, .. } if is_whole => join(first, first + short(until - place) + 1),
+                FacePattern::Fan { first, stride, .. } if is_whole => {
+                    join(first, first + (short(until - place) + 1) * u32::from(stride));
+                }
                 FacePattern::Quads { first } if is_whole => join(first, first + 2 * short(until - place) - 1),
                 _ => self.range(place..until.min(end)).flatten().for_each(|corner| join(corner, corner)),
             }
@@ -341,12 +348,18 @@ impl Iterator for Iter<'_> {
         let side = index as u32;
         Some(match self.faces {
             FacePattern::Listed(from) => self.of.listed[from as usize + index],
-            FacePattern::Band { from, to, sides } => match side.checked_sub(u32::from(sides)) {
-                None => [from + side, from + side + 1, to + side + 1],
-                Some(side) => [from + side, to + side + 1, to + side],
-            },
-            FacePattern::Fan { first, turned: false } => [first, first + side + 1, first + side + 2],
-            FacePattern::Fan { first, turned: true } => [first, first + side + 2, first + side + 1],
+            FacePattern::Band { from, to, sides, stride } => {
+                let stride = u32::from(stride);
+                match side.checked_sub(u32::from(sides)).map(|side| side * stride) {
+                    None => [from + side * stride, from + (side + 1) * stride, to + (side + 1) * stride],
+                    Some(corner) => [from + corner, to + corner + stride, to + corner],
+                }
+            }
+            FacePattern::Fan { first, turned, stride } => {
+                let next = first + (side + 1) * u32::from(stride);
+                let after = next + u32::from(stride);
+                if turned { [first, after, next] } else { [first, next, after] }
+            }
             FacePattern::Quads { first } => {
                 let corner = first + side / 2 * 4;
                 let second = side % 2;

@@ -42,7 +42,7 @@ impl<'a> Coverage<'a> {
         perspective: bool,
     ) -> Self {
         let cutout = draw.cutout.and_then(|texture| {
-            let corners = draw.part.triangles.get((triangle.number - draw.first) as usize)?;
+            let corners = draw.triangles.get((triangle.number - draw.first) as usize)?;
             let uvs = corners.map(|corner| draw.part.uvs.get(corner as usize).copied().unwrap_or_default());
             let mix = |weights: Vec3A| uvs[0] * weights.x + uvs[1] * weights.y + uvs[2] * weights.z;
             let uvs = triangle.weights.map_or(uvs, |weights| weights.map(mix));

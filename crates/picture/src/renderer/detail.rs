@@ -27,6 +27,8 @@ pub(super) struct RenderDetail {
     pub turns: usize,
     /// Maximum number of surfaces of a pixel that are shaded; those of fewer samples count as the others.
     pub surfaces: usize,
+    /// Diameter (pixels) below which tubes are drawn with fewer sides.
+    pub thin: f32,
     /// Set if smooth surfaces mirror the model.
     pub traces: bool,
 }
@@ -49,6 +51,7 @@ impl RenderDetail {
                 pools_light: true,
                 turns: 1,
                 surfaces: 2,
+                thin: 0.5,
                 traces: false,
             },
             Quality::Film => Self {
@@ -62,6 +65,7 @@ impl RenderDetail {
                 pools_light: true,
                 turns: 1,
                 surfaces: 4,
+                thin: 0.5,
                 traces: false,
             },
             Quality::Fine => Self {
@@ -75,6 +79,7 @@ impl RenderDetail {
                 pools_light: false,
                 turns: 4,
                 surfaces: 4,
+                thin: 0.0,
                 traces: true,
             },
             Quality::Best => Self {
@@ -88,6 +93,7 @@ impl RenderDetail {
                 pools_light: false,
                 turns: 1,
                 surfaces: usize::MAX,
+                thin: 0.0,
                 traces: true,
             },
         }

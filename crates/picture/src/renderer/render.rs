@@ -94,9 +94,12 @@ fn develop_within(
     picture.check()?;
     let images = texture::load(&scene.materials)?;
     let is_film = picture.quality == Quality::Film;
-    let stage = stage::Stage::within(scene, &images, extent, is_film, stop)?;
+    let mut stage = stage::Stage::within(scene, &images, extent, is_film, stop)?;
     let detail = detail::RenderDetail::of(picture.quality, stage.triangles());
     let camera = picture_camera(scene, &stage, extent, picture, is_film)?;
+    if detail.thin > 0.0 {
+        stage.reduce_tubes(&camera, detail.thin);
+    }
     let sun = sun::Sun::new(&stage, camera.viewpoint(), picture.sun, &detail);
     let mut sky = sky::Sky::new(&stage, &sun, &detail, picture.ground);
     sky.surround(picture.background);

@@ -3,19 +3,24 @@
 //! Instances are not expanded. A triangle is identified by its number in the order of instances, parts and triangles,
 //! and is found by a search in the draws.
 
+use super::camera::Camera;
 use super::clip::clip;
 use super::extent::Extent;
 use super::points::{self, SceneOutlines, StageFrame, to_single};
 use super::texture::{MaterialImages, SampledTexture};
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_base::stop::Stop;
-use burgeon_scene::{Material, Mesh, Part, Scene};
+use burgeon_scene::{Material, Mesh, Part, Scene, Triangles};
 use glam::{Affine3A, DAffine3, DVec3, Mat3A, Vec3, Vec3A};
 use rayon::prelude::*;
+use std::borrow::Cow;
+use std::collections::HashMap;
 use std::ops::Range;
 
 /// Maximum length of the sum of the areas of a closed surface, as vectors, relative to the sum of their lengths.
 const CLOSED: f64 = 1e-3;
+/// Minimum number of triangles of a mesh for which fewer sides of its tubes save more time than they take.
+const MANY: usize = 10_000;
 
 /// Scene around the origin, in units of the radius of the sphere around its box.
 pub(super) struct Stage<'a> {
@@ -37,8 +42,10 @@ pub(super) struct Stage<'a> {
 
 /// Part of an instance.
 pub(super) struct DrawCall<'a> {
-    /// Part with the triangles.
+    /// Part with the corners.
     pub part: &'a Part,
+    /// Triangles of the part, or fewer for thin tubes.
+    pub triangles: Cow<'a, Triangles>,
     /// Transform from the mesh's coordinates to the stage's.
     pub place: Affine3A,
     /// Transform of normals, whose lengths it changes.
@@ -112,6 +119,7 @@ impl<'a> Stage<'a> {
                 let cutout = texture.filter(|texture| texture.has_holes());
                 draws.push(DrawCall {
                     part,
+                    triangles: Cow::Borrowed(&part.triangles),
                     place,
                     turn,
                     exact,
@@ -132,7 +140,7 @@ impl<'a> Stage<'a> {
                     })?;
             }
         }
-        draws.retain(|draw| !draw.part.triangles.is_empty());
+        draws.retain(|draw: &DrawCall<'a>| !draw.triangles.is_empty());
         let materials = &scene.materials;
         let mut stage = Self { draws, materials, bounds, hull: Vec::new(), shrink, count, outlines, stop };
         match shared {
@@ -149,6 +157,34 @@ impl<'a> Stage<'a> {
         });
         if let Some(bounds) = bounds {
             (self.bounds, self.hull) = (bounds, points.to_vec());
+        }
+    }
+
+    /// Draws tubes that are thinner than `pixels` with fewer sides, in meshes of many triangles that have one instance.
+    pub(super) fn reduce_tubes(&mut self, camera: &Camera, pixels: f32) {
+        let mut uses: HashMap<*const Part, usize> = HashMap::default();
+        for draw in &self.draws {
+            *uses.entry(std::ptr::from_ref(draw.part)).or_default() += 1;
+        }
+        for draw in &mut self.draws {
+            let part = draw.part;
+            if part.triangles.len() < MANY || uses[&std::ptr::from_ref(part)] > 1 {
+                continue;
+            }
+            let place = draw.place;
+            let reduced = part.triangles.with_fewer_sides(|corners| {
+                let at = corners.map(|i| place.transform_point3a(part.positions[i as usize].into()));
+                let least = pixels * camera.footprint(at[0]);
+                let size = (at[2] - at[0]).length_squared().max((at[3] - at[1]).length_squared());
+                least > 0.0 && size < least * least
+            });
+            draw.triangles = reduced.map_or(Cow::Borrowed(&part.triangles), Cow::Owned);
+        }
+        self.count = 0;
+        for draw in &mut self.draws {
+            draw.first = self.count;
+            // There are not more triangles than before.
+            self.count += draw.triangles.len() as u32;
         }
     }
 
@@ -179,7 +215,7 @@ impl<'a> Stage<'a> {
     /// index of the one that does.
     pub(super) fn find_near(&self, number: u32, hint: &mut usize) -> (&DrawCall<'a>, usize) {
         let is_here = |draw: &&DrawCall<'a>| {
-            number.checked_sub(draw.first).is_some_and(|index| (index as usize) < draw.part.triangles.len())
+            number.checked_sub(draw.first).is_some_and(|index| (index as usize) < draw.triangles.len())
         };
         if !self.draws.get(*hint).as_ref().is_some_and(is_here) {
             *hint = self.draws.partition_point(|draw| draw.first <= number) - 1;
@@ -203,8 +239,8 @@ impl<'a> Stage<'a> {
                 break;
             }
             let from = (numbers.start.max(draw.first) - draw.first) as usize;
-            let to = ((numbers.end - draw.first) as usize).min(draw.part.triangles.len());
-            let Some((least, most)) = draw.part.triangles.corner_bounds(from..to) else { continue };
+            let to = ((numbers.end - draw.first) as usize).min(draw.triangles.len());
+            let Some((least, most)) = draw.triangles.corner_bounds(from..to) else { continue };
             let place = *view * draw.place;
             let project = |point: &Vec3| place.transform_point3a(Vec3A::from(*point));
             let positions = &draw.part.positions;
@@ -214,7 +250,7 @@ impl<'a> Stage<'a> {
                 corners.extend(positions[least as usize..=most as usize].iter().map(project));
             }
             let first = draw.first + from as u32;
-            for (number, numbers) in (first..).zip(draw.part.triangles.range(from..to)) {
+            for (number, numbers) in (first..).zip(draw.triangles.range(from..to)) {
                 let [a, b, c] = match dense {
                     true => numbers.map(|i| corners[(i - least) as usize]),
                     false => numbers.map(|i| project(&positions[i as usize])),
@@ -255,12 +291,12 @@ impl<'a> Stage<'a> {
                 break;
             }
             let from = (numbers.start.max(draw.first) - draw.first) as usize;
-            let to = ((numbers.end - draw.first) as usize).min(draw.part.triangles.len());
-            let triangles = draw.part.triangles.range(from..to);
+            let to = ((numbers.end - draw.first) as usize).min(draw.triangles.len());
+            let triangles = draw.triangles.range(from..to);
             let matrix = to_double(view) * draw.exact;
             let place = |point: &Vec3| matrix.transform_point3(point.as_dvec3()).as_vec3a();
             let turn = |point: &Vec3| project(place(point));
-            let Some((least, most)) = draw.part.triangles.corner_bounds(from..to) else { continue };
+            let Some((least, most)) = draw.triangles.corner_bounds(from..to) else { continue };
             let (least, most) = (least as usize, most as usize);
             let positions = &draw.part.positions;
             // Neighbours share corners, so transforming the whole range is cheaper unless the range is sparse.

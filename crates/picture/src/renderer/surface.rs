@@ -72,7 +72,7 @@ impl<'a> SeenTriangle<'a> {
     /// Finds triangle `number`. The `hint` is the index of the draw that was found last, where the search begins.
     pub(super) fn find(stage: &'a Stage<'a>, hint: &mut usize, number: u32) -> Self {
         let (draw, index) = stage.find_near(number, hint);
-        let corners = draw.part.triangles.get(index).unwrap_or_default().map(|i| i as usize);
+        let corners = draw.triangles.get(index).unwrap_or_default().map(|i| i as usize);
         Self { draw, corners, positions: [Vec3::ZERO; 3], normals: [Vec3::ZERO; 3] }
     }
 
