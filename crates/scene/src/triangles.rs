@@ -24,7 +24,12 @@ pub struct Triangles {
     runs: Vec<TriangleSpan>,
     listed: Vec<[u32; 3]>,
     count: usize,
+    /// The run of every [`MARKED`]th triangle, if the runs differ in length; empty otherwise.
+    marks: Vec<u32>,
 }
+
+/// Number of triangles from mark to mark.
+const MARKED: usize = 64;
 
 /// Consecutive triangles of one pattern; at least one.
 #[derive(Debug, Clone, Copy)]
@@ -164,9 +169,14 @@ impl Triangles {
 
     /// Returns the number of runs that begin at or before the triangle `place`.
     ///
-    /// Most runs of a mesh are about equally long, so the search begins where the run would be if all were, and doubles its
+    /// Most runs of a mesh are about equally long, so without marks the search begins where the run would be if all were, and doubles its
     /// steps.
     fn runs_until(&self, place: usize) -> usize {
+        if let Some(mark) = self.marks.get(place / MARKED) {
+            let low = *mark as usize;
+            let high = self.marks.get(place / MARKED + 1).map_or(self.runs.len(), |next| *next as usize + 1);
+            return low + self.runs[low..high].partition_point(|run| run.first as usize <= place);
+        }
         let begins_before =
             |index: usize| self.runs.get(index).is_some_and(|run| run.first as usize <= place);
         let guess = (place as u128 * self.runs.len() as u128 / self.count.max(1) as u128) as usize;
@@ -228,6 +238,7 @@ impl Triangles {
         if count >= self.count {
             return;
         }
+        self.marks.clear();
         let kept = self.runs.partition_point(|run| (run.first as usize) < count);
         let Some(last) = kept.checked_sub(1) else { return self.clear() };
         let listed_from = |runs: &[TriangleSpan]| {
@@ -256,6 +267,7 @@ impl Triangles {
     pub fn clear(&mut self) {
         self.runs.clear();
         self.listed.clear();
+        self.marks.clear();
         self.count = 0;
     }
 
@@ -283,7 +295,7 @@ impl From<Vec<[u32; 3]>> for Triangles {
     fn from(listed: Vec<[u32; 3]>) -> Self {
         let count = listed.len();
         let run = (count > 0).then_some(TriangleSpan { first: 0, faces: FacePattern::Listed(0) });
-        Self { runs: run.into_iter().collect(), listed, count }
+        Self { runs: run.into_iter().collect(), listed, count, marks: Vec::new() }
     }
 }
 

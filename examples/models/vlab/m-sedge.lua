@@ -12,10 +12,11 @@ local Apex, Stem = module("Apex", "age", "wait"), module("Stem", "width")
 local LeafBud, SpikeBud = module("LeafBud", "age"), module("SpikeBud", "age")
 local Tip, Bud = module("Tip", "age"), module("Bud")
 local Bract, Chaff, Stamen = module("Bract", "size"), module("Chaff", "size"), module("Stamen", "size")
-local Midrib, Blade, Segment = module("Midrib"), module("Blade", "wait"), module("Segment", "length", "width")
+local Midrib, Segment = module("Midrib"), module("Segment", "length", "width")
+local Blade = module("Blade", "wait", "left", "elasticity")
 local InFemale, InMale, InLeaf = module("InFemale", "scale"), module("InMale", "scale"), module("InLeaf")
 
-local pen = turtle({ color = "#5f8f45", sides = 6 })
+local pen = turtle({ color = "#5f8f45", sides = 6, simple_tropism = { 0.2, 0, 1 }, simple_elasticity = 0.02 })
 local sedge = lsystem({ object = pen, interpret = "last" })
 local female, male, leaf = lsystem({ object = pen }), lsystem({ object = pen }), lsystem({ object = pen })
 sedge:subsystem("InFemale", female):subsystem("InMale", male):subsystem("InLeaf", leaf)
@@ -36,10 +37,17 @@ sedge:rule("Apex(age, wait)", function(this, age: number, wait: number): any
 end)
 sedge:rule("SpikeBud(age)", function(this, age: number)
   local half = F((LAST - age) / 5)
-  return Pitch(-25), Elasticity(-0.1), Width(0.3), half, half, Elasticity(0), InFemale(1.25), Tip(-1)
+  return Pitch(-25),
+    SimpleElasticity(-0.1),
+    Width(0.3),
+    half,
+    half,
+    SimpleElasticity(0),
+    InFemale(1.25),
+    Tip(-1)
 end)
 sedge:rule("LeafBud(age)", function(this, age: number)
-  return Pitch(-60), Width(0.1), Elasticity((age - 5) / 1000), InLeaf(), Midrib(), Blade(age - 9)
+  return Pitch(-60), Width(0.1), InLeaf(), Midrib(), Blade(age - 9, age, (age - 13) / 100)
 end)
 sedge:rule("F(size)", function(this, size: number): any
   if size < 2 then
@@ -94,12 +102,15 @@ grow(male, "Up", "^", 1.02, 15)
 grow(male, "Stamen", "Stamen", 1.02, 3)
 grow(male, "F", "F", 1.025, 1)
 
--- A leaf: after a delay, its blade gets a segment in each step.
-leaf:rule("Blade(wait)", function(this, wait: number): any
+-- A leaf: after a delay, its blade gets a segment in each step. It rises at first. When it has as many segments as the age
+-- of the stem's apex at its node, its elasticity changes: the lower leaf then bends down, and the upper one further up.
+leaf:rule("Blade(wait, left, elasticity)", function(this, wait: number, left: number, elasticity: number): any
   if wait > 0 then
-    return Blade(wait - 1)
+    return Blade(wait - 1, left, elasticity)
+  elseif left == 0 then
+    return SimpleElasticity(elasticity), Segment(0.16, 0.05), Blade(0, -1, elasticity)
   end
-  return Segment(0.16, 0.05), Blade(0)
+  return Segment(0.16, 0.05), Blade(0, left - 1, elasticity)
 end)
 leaf:rule("Segment(length, width)", function(this, length: number, width: number)
   return Segment(math.min(length * 1.05, 1.1), math.min(width * 1.08, 4))
@@ -163,4 +174,4 @@ for _, stem in result:chain() do
   end
 end
 expect(sum, 5 * length, 1e-9)
--- Picture: --azimuth 180 --elevation 8
+-- Picture: --azimuth 160 --elevation 20

@@ -4,7 +4,8 @@
 local total = param("total", { default = 1500, min = 1, max = 20000, step = 1, doc = "Number of internodes" })
 local spread =
   param("spread", { default = 30, min = 5, max = 60, unit = "deg", doc = "Angle between two branches" })
-local weeping = param("weeping", { default = 0.35, min = 0, max = 0.8, doc = "Bending of a twig" })
+local weeping =
+  param("weeping", { default = 0.06, min = 0.01, max = 0.08, doc = "Loss of elasticity at each branching" })
 
 local Branch, Leaf = module("Branch", "carried"), module("Leaf")
 
@@ -18,8 +19,15 @@ local function share(): number
   return numbers[5]
 end
 
-local birch =
-  lsystem({ object = turtle({ color = "#cfc8ba", sides = 5, tropism = { 0, 0, -1 } }), interpret = "last" })
+-- The elasticity falls from 0.4 at the ground: limbs rise, and twigs, whose elasticity is below 0, hang.
+local pen = turtle({
+  color = "#cfc8ba",
+  sides = 5,
+  simple_tropism = { -0.04, 0, 1 },
+  simple_elasticity = 0.4,
+  simple_increment = -weeping,
+})
+local birch = lsystem({ object = pen, interpret = "last" })
 birch:axiom(Width(0.4 * total ^ 0.3), Branch(total))
 birch:rule("Branch(n)", function(this, n): any
   if n < 1 then
@@ -30,7 +38,7 @@ birch:rule("Branch(n)", function(this, n): any
   local left = math.floor(n * share())
   local right = n - 1 - left
   return Width(0.4 * n ^ 0.3),
-    Elasticity(weeping * (1 - (n / total) ^ 0.25)),
+    SimpleElasticity(),
     F(n ^ 0.4),
     Roll(180),
     { Turn(spread * right / n), Branch(left) },
@@ -39,6 +47,7 @@ end)
 birch:interpret("Leaf", function(this)
   local blade = { Turn(30), G(2), Point(), Turn(-30), G(2), Point(), Turn(-30), G(2), Point() }
   return Color(mix("#5f8f22", "#b8a02a", random())),
+    SimpleElasticity(0),
     BeginPolygon(),
     Point(),
     { table.unpack(blade) },

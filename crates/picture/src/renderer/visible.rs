@@ -5,6 +5,7 @@ use super::coverage::Coverage;
 use super::detail::RenderDetail;
 use super::raster::RasterGrid;
 use super::stage::Stage;
+use burgeon_base::memory::make_exact_room;
 use glam::Vec3A;
 use rayon::prelude::*;
 use std::ops::Range;
@@ -65,6 +66,7 @@ impl Visible {
         let layout = SampleLayout { width, columns, rows };
         let height = pixels.len() * rows;
         let mut samples = Vec::new();
+        make_exact_room(&mut samples, width * columns * height);
         samples.resize_with(width * columns * height, || AtomicU64::new(NOTHING));
         let shifts = shifts(rows);
         let grid = RasterGrid { width: width * columns, rows: 0..height, shifts: &shifts };

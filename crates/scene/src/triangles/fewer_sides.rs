@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::{FacePattern, TriangleSpan, Triangles, short};
+use super::{FacePattern, MARKED, TriangleSpan, Triangles, short};
 
 /// Number of runs that a thread works on at a time.
 const STRETCH: usize = 4096;
@@ -37,8 +37,11 @@ impl Triangles {
             .enumerate()
             .map(|(number, runs)| self.reduce_runs(number * STRETCH, runs, &is_thin))
             .collect();
-        let mut reduced = Self { runs: Vec::with_capacity(self.runs.len()), listed: Vec::new(), count: 0 };
+        let mut reduced = Self { runs: Vec::with_capacity(self.runs.len()), ..Self::default() };
         for (faces, count) in runs.into_iter().flatten() {
+            while reduced.marks.len() * MARKED < reduced.count + count {
+                reduced.marks.push(short(reduced.runs.len()));
+            }
             reduced.runs.push(TriangleSpan { first: short(reduced.count), faces });
             reduced.count += count;
         }
@@ -139,6 +142,29 @@ mod tests {
             assert_eq!(edges.len(), count, "{sides}");
             assert!(edges.iter().all(|[a, b]| edges.binary_search(&[*b, *a]).is_ok()), "{sides}");
         }
+    }
+
+    #[test]
+    fn a_long_list_is_read_in_order_and_from_any_place() {
+        let mut whole = Triangles::default();
+        for ring in 0..400 {
+            whole.band(7 * ring, 7 * ring + 7, 6);
+            if ring % 5 == 0 {
+                whole.push([ring, ring + 1, ring + 2]);
+            }
+        }
+        let mut reduced = whole.with_fewer_sides(|[first, ..]| first / 7 % 100 < 60).expect("thin tubes");
+        let list: Vec<[u32; 3]> = reduced.iter().collect();
+        assert!(list.len() == reduced.len() && list.len() < whole.len());
+        for place in 0..list.len() {
+            assert_eq!(reduced.get(place), Some(list[place]));
+        }
+        reduced.band(9, 2, 6);
+        let end = reduced.len();
+        assert_eq!((end, reduced.get(end - 12)), (list.len() + 12, Some([9, 10, 3])));
+        reduced.truncate(1000);
+        assert!(reduced.iter().eq(list[..1000].iter().copied()) && reduced.get(1000).is_none());
+        assert_eq!(reduced.get(999), Some(list[999]));
     }
 
     #[test]
