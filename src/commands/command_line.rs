@@ -19,7 +19,7 @@ use clap::{CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
     version,
     about = "Procedural modelling by rewriting: rules in Lua, geometry in Rust.",
     after_help = "Getting started:\n  burgeon new tree\n  burgeon live tree.lua\n  burgeon run tree.lua -o tree.glb\n\n\
-                  burgeon tree.lua runs a script and shows what it makes; burgeon COMMAND --help has examples."
+                  burgeon tree.lua runs a script and shows its model; burgeon COMMAND --help has examples."
 )]
 pub(super) struct Cli {
     #[command(subcommand)]

@@ -41,7 +41,7 @@ pub(super) struct PageFlags {
     token: Option<Token>,
 }
 
-/// Shows what a script makes in the browser, and shows it anew on every save; also shows a folder of tiles
+/// Shows the model of a script in the browser, and updates it on every save; also shows a folder of tiles
 #[derive(Args)]
 pub(crate) struct LiveCommand {
     #[command(flatten)]

@@ -388,8 +388,8 @@ fn help_reads_well() {
     Usage: burgeon <COMMAND>
 
     Commands:
-      run          Runs a script and writes what it makes
-      live         Shows what a script makes in the browser, and shows it anew on every save; also shows a folder of tiles
+      run          Runs a script and writes its model
+      live         Shows the model of a script in the browser, and updates it on every save; also shows a folder of tiles
       check        Checks a script and its required files as far as a run goes, and reports all problems
       api          Shows the scripting API: types of objects with their fields and methods, functions and modules
       variations   Runs a script many times, with other seeds or other values of a parameter, and shows them side by side
@@ -414,10 +414,10 @@ fn help_reads_well() {
       burgeon live tree.lua
       burgeon run tree.lua -o tree.glb
 
-    burgeon tree.lua runs a script and shows what it makes; burgeon COMMAND --help has examples.
+    burgeon tree.lua runs a script and shows its model; burgeon COMMAND --help has examples.
     ");
     assert_snapshot!(without_formats(&Folder::new().burgeon(&["run", "-h"]).done().stdout), @r"
-    Runs a script and writes what it makes
+    Runs a script and writes its model
 
     Usage: burgeon run [OPTIONS] <SCRIPT>
 

@@ -48,7 +48,7 @@ impl From<InstancesFlag> for InstanceStorage {
     }
 }
 
-/// Runs a script and writes what it makes
+/// Runs a script and writes its model
 #[derive(Args, Clone)]
 pub(crate) struct RunCommand {
     #[command(flatten)]

@@ -203,6 +203,7 @@ impl Turtle {
 
     /// Bends the heading towards `direction` with each step drawn, by `elasticity`.
     pub fn tropism(&mut self, direction: Vector, elasticity: f64) {
+        self.warn_of_direction("tropism", direction, elasticity);
         self.state.tropism = direction.0.normalize_or_zero();
         self.state.elasticity = elasticity;
     }
@@ -210,12 +211,14 @@ impl Turtle {
     /// Adds a tropism to the others: the heading bends by `elasticity` until it makes `angle` (degrees) with `direction`, 0
     /// unless given. With an angle of 90, branches grow across the direction.
     pub fn add_tropism(&mut self, direction: Vector, elasticity: f64, angle: Option<f64>) -> Result<()> {
+        self.warn_of_direction("add_tropism", direction, elasticity);
         self.state.add_tropism(direction.0, elasticity, angle.unwrap_or(0.0))
     }
 
     /// Adds a torque to the others: with each step drawn, the turtle rolls about its heading, and its up vector approaches
     /// `direction` by `elasticity`, at most by 1 radian. Leaves then turn to one side of a branch.
     pub fn add_torque(&mut self, direction: Vector, elasticity: f64) -> Result<()> {
+        self.warn_of_direction("add_torque", direction, elasticity);
         self.state.add_torque(direction.0, elasticity)
     }
 
@@ -227,6 +230,7 @@ impl Turtle {
     /// Sets the simple tropism of cpfg and lpfg: after each step, drawn or not, the heading tilts towards `direction` by
     /// `elasticity`.
     pub fn simple_tropism(&mut self, direction: Vector, elasticity: f64) {
+        self.warn_of_direction("simple_tropism", direction, elasticity);
         self.state.simple = SimpleTropism::new(direction.0, elasticity);
     }
 
@@ -393,6 +397,15 @@ fn no_polygon(method: &str) -> Error {
 }
 
 impl Turtle {
+    /// Warns of a tropism or a torque without a direction.
+    fn warn_of_direction(&mut self, method: &str, direction: Vector, elasticity: f64) {
+        if elasticity != 0.0 && direction.0.normalize_or_zero() == DVec3::ZERO {
+            let text = format!("turtle:{method}: the direction has no length, so it bends nothing");
+            let help = "give a direction, such as { 0, 0, -1 }, or the elasticity 0";
+            self.warnings.push(Warning::new(WarningKind::NoEffect, text).help(help).of_all());
+        }
+    }
+
     /// Creates a turtle in its initial state.
     pub fn new(options: TurtleOptions) -> Result<Self> {
         if !(3..=64).contains(&options.sides) {

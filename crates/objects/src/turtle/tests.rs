@@ -62,6 +62,20 @@ fn an_elasticity_without_a_value_adds_the_increment_and_warns_if_that_is_zero() 
 }
 
 #[test]
+fn a_direction_without_length_warns_unless_the_elasticity_is_zero() {
+    for (direction, elasticity, warnings) in
+        [(DVec3::ZERO, 0.2, 4), (DVec3::ZERO, 0.0, 0), (DVec3::Z, 0.2, 0)]
+    {
+        let (mut turtle, direction) = (turtle(), burgeon_kit::Vector(direction));
+        turtle.tropism(direction, elasticity);
+        turtle.simple_tropism(direction, elasticity);
+        turtle.add_tropism(direction, elasticity, None).expect("few tropisms");
+        turtle.add_torque(direction, elasticity).expect("few torques");
+        assert_eq!(turtle.take_warnings().len(), warnings, "{direction:?}");
+    }
+}
+
+#[test]
 fn a_branch_has_a_cylinder_of_its_own_and_its_end_completes_it() {
     let mut turtle = turtle();
     turtle.begin_cylinder(None).expect("a trunk");
