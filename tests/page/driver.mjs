@@ -6,7 +6,7 @@
 import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
 import { once } from "node:events";
-import { mkdtempSync, renameSync, writeFileSync } from "node:fs";
+import { mkdtempSync, renameSync, rmSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
@@ -36,8 +36,16 @@ end)
 tower:derive()
 `;
 
+/** Folders to remove at the end. */
+const folders = [];
+process.on("exit", () => folders.forEach((made) => rmSync(made, { recursive: true, force: true })));
+
 /** A folder for scripts. */
-export const folder = () => mkdtempSync(join(tmpdir(), "burgeon page "));
+export const folder = () => {
+  const made = mkdtempSync(join(tmpdir(), "burgeon page "));
+  folders.push(made);
+  return made;
+};
 
 // Tokens that are kept are not those of the person who runs this.
 process.env.XDG_RUNTIME_DIR = folder();
