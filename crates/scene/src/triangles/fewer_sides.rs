@@ -160,8 +160,8 @@ mod tests {
         let mut reduced = whole.with_fewer_sides(|[first, ..]| first / 7 % 100 < 60).expect("thin tubes");
         let list: Vec<[u32; 3]> = reduced.iter().collect();
         assert!(list.len() == reduced.len() && list.len() < whole.len());
-        for place in 0..list.len() {
-            assert_eq!(reduced.get(place), Some(list[place]));
+        for (place, triangle) in list.iter().enumerate() {
+            assert_eq!(reduced.get(place), Some(*triangle));
         }
         reduced.band(9, 2, 6);
         let end = reduced.len();
