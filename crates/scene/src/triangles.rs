@@ -24,12 +24,12 @@ pub struct Triangles {
     runs: Vec<TriangleSpan>,
     listed: Vec<[u32; 3]>,
     count: usize,
-    /// The run of every [`MARKED`]th triangle, if the runs differ in length; empty otherwise.
+    /// The run of every [`MARK_STEP`]th triangle, if the runs differ in length; empty otherwise.
     marks: Vec<u32>,
 }
 
 /// Number of triangles from mark to mark.
-const MARKED: usize = 64;
+const MARK_STEP: usize = 64;
 
 /// Consecutive triangles of one pattern; at least one.
 #[derive(Debug, Clone, Copy)]
@@ -172,9 +172,10 @@ impl Triangles {
     /// Most runs of a mesh are about equally long, so without marks the search begins where the run would be if all were, and doubles its
     /// steps.
     fn runs_until(&self, place: usize) -> usize {
-        if let Some(mark) = self.marks.get(place / MARKED) {
+        if let Some(mark) = self.marks.get(place / MARK_STEP) {
             let low = *mark as usize;
-            let high = self.marks.get(place / MARKED + 1).map_or(self.runs.len(), |next| *next as usize + 1);
+            let high =
+                self.marks.get(place / MARK_STEP + 1).map_or(self.runs.len(), |next| *next as usize + 1);
             return low + self.runs[low..high].partition_point(|run| run.first as usize <= place);
         }
         let begins_before =

@@ -25,7 +25,7 @@ use crate::{Scope, ShapeBody};
 #[derive(Debug, Clone)]
 pub struct Shape {
     /// Coordinate system.
-    pub(crate) frame: CompactScope,
+    pub(crate) scope: CompactScope,
     /// Geometry.
     pub body: ShapeBody,
     /// Face of a solid that this face or part of a face was.
@@ -38,13 +38,13 @@ const THINNEST: f64 = 1e-6;
 impl Shape {
     /// Creates a shape of a body in a scope.
     pub(crate) fn new(scope: Scope, body: ShapeBody) -> Self {
-        Self { frame: scope.into(), body, trim: None }
+        Self { scope: scope.into(), body, trim: None }
     }
 
     /// Returns the coordinate system.
     #[inline]
     pub fn scope(&self) -> Scope {
-        self.frame.get()
+        self.scope.get()
     }
 
     /// Creates a box with a corner at the origin.
@@ -175,7 +175,7 @@ impl Shape {
                 ShapeBody::Mesh(Arc::new(new))
             }
         };
-        Self { frame: self.frame.clone(), body, trim: self.trim.clone() }
+        Self { scope: self.scope.clone(), body, trim: self.trim.clone() }
     }
 
     /// Returns the approximate memory (bytes).

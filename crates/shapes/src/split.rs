@@ -74,15 +74,15 @@ impl Shape {
                     if number.is_multiple_of(STRETCH) {
                         Stop::check_current()?;
                     }
-                    let frame = self.frame.slab(axis, [part.from, part.to]);
+                    let scope = self.scope.slab(axis, [part.from, part.to]);
                     let body = ShapeBody::Box(styles.of(part.from <= 0.0, part.to >= whole));
-                    split.parts.push((part.entry, Self { frame, body, trim: None }));
+                    split.parts.push((part.entry, Self { scope, body, trim: None }));
                 }
             }
             ShapeBody::Rectangle(_) | ShapeBody::Edge(..) if axis < 2 => {
                 split.parts.extend(parts.iter().map(|part| {
-                    let frame = self.frame.slab(axis, [part.from, part.to]);
-                    (part.entry, Self { frame, body: self.body.clone(), trim: self.trim.clone() })
+                    let scope = self.scope.slab(axis, [part.from, part.to]);
+                    (part.entry, Self { scope, body: self.body.clone(), trim: self.trim.clone() })
                 }));
             }
             _ => self.split_mesh(axis, &parts, &mut split)?,

@@ -102,7 +102,7 @@ impl DivisionRule {
         let rows = || arguments.chunks_exact(count);
         let objects = session.values.objects(rows().map(|row| row[divided]))?;
         let constants: Vec<Option<Vec<f64>>> = self.pack_constants(machine);
-        let mut stored = StoredParts::default();
+        let mut pending = PendingParts::default();
         take_deferred();
         for (number, (object, row)) in objects.into_iter().zip(rows()).enumerate() {
             if number.is_multiple_of(STRETCH) {
@@ -120,7 +120,7 @@ impl DivisionRule {
                 let entry = entry as usize;
                 let Some(module) = self.modules.get(entry)? else { continue };
                 made.symbols.push(module.symbol);
-                stored.add(part, made.params.len());
+                pending.add(part, made.params.len());
                 made.params.push(0.0);
                 made.params.extend(constants[entry].iter().flatten());
                 let start = made.params.len() - module.more.len();
@@ -133,7 +133,7 @@ impl DivisionRule {
                     }
                 }
             }
-            stored.store_if_many(&session.values, &mut made.params);
+            pending.store_if_many(&session.values, &mut made.params);
             if made.symbols.len() > session.options.limits.modules {
                 return None;
             }
@@ -143,7 +143,7 @@ impl DivisionRule {
         if !take_deferred().is_empty() {
             return None;
         }
-        stored.store(&session.values, &mut made.params);
+        pending.store(&session.values, &mut made.params);
         Some(())
     }
 
@@ -160,12 +160,12 @@ impl DivisionRule {
 
 /// Parts that are not stored yet, and their places among the parameters of the modules that are made.
 #[derive(Default)]
-struct StoredParts {
+struct PendingParts {
     parts: Vec<Arc<dyn Object>>,
     places: Vec<usize>,
 }
 
-impl StoredParts {
+impl PendingParts {
     fn add(&mut self, part: Arc<dyn Object>, place: usize) {
         self.parts.push(part);
         self.places.push(place);

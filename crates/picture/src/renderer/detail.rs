@@ -28,7 +28,7 @@ pub(super) struct RenderDetail {
     /// Maximum number of surfaces of a pixel that are shaded; those of fewer samples count as the others.
     pub surfaces: usize,
     /// Diameter (pixels) below which tubes are drawn with fewer sides.
-    pub thin: f32,
+    pub thin_diameter: f32,
     /// Set if smooth surfaces mirror the model.
     pub traces: bool,
 }
@@ -51,7 +51,7 @@ impl RenderDetail {
                 pools_light: true,
                 turns: 1,
                 surfaces: 2,
-                thin: 0.5,
+                thin_diameter: 0.5,
                 traces: false,
             },
             Quality::Film => Self {
@@ -65,7 +65,7 @@ impl RenderDetail {
                 pools_light: true,
                 turns: 1,
                 surfaces: 4,
-                thin: 0.5,
+                thin_diameter: 0.5,
                 traces: false,
             },
             Quality::Fine => Self {
@@ -79,7 +79,7 @@ impl RenderDetail {
                 pools_light: false,
                 turns: 4,
                 surfaces: 4,
-                thin: 0.0,
+                thin_diameter: 0.0,
                 traces: true,
             },
             Quality::Best => Self {
@@ -93,7 +93,7 @@ impl RenderDetail {
                 pools_light: false,
                 turns: 1,
                 surfaces: usize::MAX,
-                thin: 0.0,
+                thin_diameter: 0.0,
                 traces: true,
             },
         }

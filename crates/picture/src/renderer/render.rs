@@ -97,8 +97,8 @@ fn develop_within(
     let mut stage = stage::Stage::within(scene, &images, extent, is_film, stop)?;
     let detail = detail::RenderDetail::of(picture.quality, stage.triangles());
     let camera = picture_camera(scene, &stage, extent, picture, is_film)?;
-    if detail.thin > 0.0 {
-        stage.reduce_tubes(&camera, detail.thin);
+    if detail.thin_diameter > 0.0 {
+        stage.reduce_tubes(&camera, detail.thin_diameter);
     }
     let sun = sun::Sun::new(&stage, camera.viewpoint(), picture.sun, &detail);
     let mut sky = sky::Sky::new(&stage, &sun, &detail, picture.ground);

@@ -171,8 +171,11 @@ impl<'a> Stage<'a> {
             if part.triangles.len() < MANY || uses[&std::ptr::from_ref(part)] > 1 {
                 continue;
             }
-            let place = draw.place;
+            let (place, stop) = (draw.place, self.stop);
             let reduced = part.triangles.with_fewer_sides(|corners| {
+                if stop.is_stopped() {
+                    return false;
+                }
                 let at = corners.map(|i| place.transform_point3a(part.positions[i as usize].into()));
                 let least = pixels * camera.footprint(at[0]);
                 let size = (at[2] - at[0]).length_squared().max((at[3] - at[1]).length_squared());

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::{FacePattern, MARKED, TriangleSpan, Triangles, short};
+use super::{FacePattern, MARK_STEP, TriangleSpan, Triangles, short};
 
 /// Number of runs that a thread works on at a time.
 const STRETCH: usize = 4096;
@@ -39,7 +39,7 @@ impl Triangles {
             .collect();
         let mut reduced = Self { runs: Vec::with_capacity(self.runs.len()), ..Self::default() };
         for (faces, count) in runs.into_iter().flatten() {
-            while reduced.marks.len() * MARKED < reduced.count + count {
+            while reduced.marks.len() * MARK_STEP < reduced.count + count {
                 reduced.marks.push(short(reduced.runs.len()));
             }
             reduced.runs.push(TriangleSpan { first: short(reduced.count), faces });

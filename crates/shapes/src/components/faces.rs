@@ -119,7 +119,7 @@ impl Shape {
         filled.faces.iter_mut().for_each(|face| face.rings.truncate(1));
         let count = filled.faces.len();
         let filled = PolygonMesh::new(filled.points, filled.faces).select(0..count);
-        Self { frame: self.frame.clone(), body: ShapeBody::Mesh(Arc::new(filled)), trim: self.trim.clone() }
+        Self { scope: self.scope.clone(), body: ShapeBody::Mesh(Arc::new(filled)), trim: self.trim.clone() }
     }
 }
 

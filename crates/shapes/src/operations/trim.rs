@@ -63,8 +63,8 @@ impl Shape {
     /// Returns the trim planes of a face with this number of this shape.
     pub(crate) fn trim_source(&self) -> Option<Arc<TrimSource>> {
         match &self.body {
-            ShapeBody::Box(_) => Some(Arc::new(TrimSource::Box(self.frame.clone()))),
-            ShapeBody::Recess(_) => Some(Arc::new(TrimSource::Recess(self.frame.clone()))),
+            ShapeBody::Box(_) => Some(Arc::new(TrimSource::Box(self.scope.clone()))),
+            ShapeBody::Recess(_) => Some(Arc::new(TrimSource::Recess(self.scope.clone()))),
             ShapeBody::Mesh(mesh) if mesh.faces.len() > 1 => {
                 Some(Arc::new(TrimSource::Mesh(Arc::clone(mesh), OnceLock::new())))
             }
