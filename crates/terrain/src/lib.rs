@@ -20,7 +20,7 @@ mod tiles;
 pub use channel::Channel;
 pub use division::block::{Area, Block, CellSymbol};
 pub use division::height_source::HeightSource;
-pub use division::noise::{octaves, octaves_around};
+pub use division::noise::{octaves, octaves_along, octaves_around};
 pub use division::table::{NumberRange, Quadrants, RuleTable};
 pub use division::world::{Begin, DEEPEST, Divide, DivisionRules, LevelRules, Tables, World};
 pub use edits::bed::GroundBed;

@@ -3,6 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::options::PlanetOptions;
+use crate::terrain::Water;
 use crate::terrain::looks::{blend, image, material, texels};
 use crate::terrain::mask::{GroundPoint, PatchPlace};
 use burgeon_base::error::Result;
@@ -26,31 +27,39 @@ pub(super) fn of(
     let plain = [0, 1, 2].map(|at| options.color.0[at]);
     let across = texels(tile, 2);
     let whole = across + 2 * MARGIN;
-    let color = |column: usize, row: usize| {
+    let spot = |column: usize, row: usize| {
         let [column, row] = [column, row].map(|at| at.saturating_sub(MARGIN).min(across - 1));
-        let spot = relief.spot(options, globe, (face, tile), (column, row, across));
-        let water = options.water.as_ref().filter(|water| spot.height < water.level);
-        let Some(water) = water else {
-            return if options.covers.is_empty() { plain } else { blend(&spot, &options.covers) };
-        };
-        let mut color = water.tint(water.level - spot.height);
-        if let Some(ice) = &options.ice {
-            let spot = GroundPoint { height: water.level, slope: 0.0, ..spot };
-            #[allow(clippy::cast_possible_truncation, reason = "colours are f32")]
-            let amount = (ice.on.at(&spot, 0) * ice.amount) as f32;
-            for (at, into) in color.iter_mut().enumerate() {
-                *into += (ice.color.0[at] - *into) * amount;
-            }
-        }
-        color
+        relief.spot(options, globe, (face, tile), (column, row, across))
     };
+    let water = |spot: &GroundPoint<'_>| options.water.as_ref().filter(|water| spot.height < water.level);
     let bytes = image(whole, |row| {
-        let color = &color;
-        move |column| color(column, row)
+        let spots: Vec<GroundPoint<'_>> = (0..whole).map(|column| spot(column, row)).collect();
+        let dry: Vec<GroundPoint<'_>> = spots.iter().filter(|spot| water(spot).is_none()).copied().collect();
+        let ground = if options.covers.is_empty() { Vec::new() } else { blend(&dry, &options.covers) };
+        let mut ground = ground.into_iter();
+        let color = |spot: &GroundPoint<'_>| match water(spot) {
+            Some(water) => water_color(options, water, spot),
+            None => ground.next().unwrap_or(plain),
+        };
+        spots.iter().map(color).collect()
     });
     #[allow(clippy::cast_precision_loss, reason = "texels are few")]
     let size = texel(globe, tile) * (whole - 1) as f64;
     material(name.to_owned(), &bytes, whole, size, roughness)
+}
+
+/// Returns the colour of water and of its ice at a point.
+fn water_color(options: &PlanetOptions, water: &Water, spot: &GroundPoint<'_>) -> [f32; 3] {
+    let mut color = water.tint(water.level - spot.height);
+    if let Some(ice) = &options.ice {
+        let spot = GroundPoint { height: water.level, slope: 0.0, ..*spot };
+        #[allow(clippy::cast_possible_truncation, reason = "colours are f32")]
+        let amount = (ice.on.at(&spot, 0) * ice.amount) as f32;
+        for (at, into) in color.iter_mut().enumerate() {
+            *into += (ice.color.0[at] - *into) * amount;
+        }
+    }
+    color
 }
 
 /// Number of texels by which an image extends beyond its tile on each side. Minified textures blend with these texels

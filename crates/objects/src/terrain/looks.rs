@@ -67,12 +67,14 @@ pub(super) fn paint(ground: &Ground, tile: &Tile, covers: &[GroundCover]) -> (Ve
     let bent = covers.iter().any(|cover| cover.on.is_bent());
     let bytes = image(across, |row| {
         let mut reader = GroundReader::new(ground);
-        move |column| {
+        let mut point = |column: usize| {
             #[allow(clippy::cast_precision_loss, reason = "texels are few")]
             let offset = DVec2::new(column as f64, (across - 1 - row) as f64) * step;
             let place = (corner + offset).min(corner + size);
-            blend(&GroundPoint::new(&mut reader, place, reach, bent), covers)
-        }
+            GroundPoint::new(&mut reader, place, reach, bent)
+        };
+        let points: Vec<GroundPoint<'_>> = (0..across).map(&mut point).collect();
+        blend(&points, covers)
     });
     (bytes, across)
 }
@@ -82,32 +84,29 @@ pub(crate) fn texels(tile: &Tile, fine: usize) -> usize {
     ((1usize << tile.detail) * fine).min(MOST_TEXELS) + 1
 }
 
-/// Creates an image with `across` texels per side. `colors` takes the number of a row from the north, and returns a function
-/// that is called for the columns of the row from the west, and returns the colour of each texel.
-pub(crate) fn image<F: FnMut(usize) -> [f32; 3]>(
-    across: usize,
-    colors: impl Fn(usize) -> F + Sync,
-) -> Vec<u8> {
-    let row = |row: usize| {
-        let mut color = colors(row);
-        (0..across).flat_map(|column| color(column).map(srgb_byte)).collect()
-    };
+/// Creates an image with `across` texels per side. `colors` takes the number of a row from the north, and returns the colours of its
+/// texels from the west.
+pub(crate) fn image(across: usize, colors: impl Fn(usize) -> Vec<[f32; 3]> + Sync) -> Vec<u8> {
+    let row = |row: usize| colors(row).into_iter().flat_map(|color| color.map(srgb_byte)).collect();
     let owner = MemoryOwner::current();
     let rows: Vec<Vec<u8>> = (0..across).into_par_iter().map(|number| owner.charge(|| row(number))).collect();
     rows.concat()
 }
 
-/// Returns the colour of a point under `covers`.
-pub(crate) fn blend(spot: &GroundPoint<'_>, covers: &[GroundCover]) -> [f32; 3] {
-    let mut color = covers.first().map_or([0.25, 0.25, 0.2], |cover| [0, 1, 2].map(|at| cover.color.0[at]));
+/// Returns the colour of each of `points` under `covers`.
+pub(crate) fn blend(points: &[GroundPoint<'_>], covers: &[GroundCover]) -> Vec<[f32; 3]> {
+    let lowest = covers.first().map_or([0.25, 0.25, 0.2], |cover| [0, 1, 2].map(|at| cover.color.0[at]));
+    let mut colors = vec![lowest; points.len()];
     for (number, cover) in (0..).zip(covers).skip(1) {
-        #[allow(clippy::cast_possible_truncation, reason = "colours are f32")]
-        let amount = (cover.on.at(spot, number) * cover.amount) as f32;
-        for (at, into) in color.iter_mut().enumerate() {
-            *into += (cover.color.0[at] - *into) * amount;
+        for (color, strength) in colors.iter_mut().zip(cover.on.along(points, number)) {
+            #[allow(clippy::cast_possible_truncation, reason = "colours are f32")]
+            let amount = (strength * cover.amount) as f32;
+            for (at, into) in color.iter_mut().enumerate() {
+                *into += (cover.color.0[at] - *into) * amount;
+            }
         }
     }
-    color
+    colors
 }
 
 impl Terrain {
@@ -135,7 +134,8 @@ impl Terrain {
         }
         let symbol = self.ground.symbol(place);
         let place = PatchPlace::Flat(place);
-        blend(&GroundPoint { place, height, slope, curvature, latitude: 0.0, symbol }, &self.options.covers)
+        let point = GroundPoint { place, height, slope, curvature, latitude: 0.0, symbol };
+        blend(&[point], &self.options.covers)[0]
     }
 }
 

@@ -1,12 +1,13 @@
 //! Masks: locations on the ground by height, slope, curvature, symbol and noise, with smooth transitions.
 
+use std::slice;
 use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 
 use burgeon_base::error::{Error, Result};
 use burgeon_kit::{Expectation, Field, Parameter, Table, Value, fields};
-use burgeon_terrain::{GroundReader, World, octaves, octaves_around};
+use burgeon_terrain::{GroundReader, World, octaves, octaves_along, octaves_around};
 
 /// The locations of a cover or of plants.
 #[fields("on")]
@@ -80,6 +81,7 @@ pub(crate) enum PatchPlace {
 }
 
 /// The properties of the ground at a position.
+#[derive(Debug, Clone, Copy)]
 pub(crate) struct GroundPoint<'a> {
     pub place: PatchPlace,
     /// Height (m).
@@ -112,9 +114,44 @@ impl<'a> GroundPoint<'a> {
         let symbol = sample.map(|sample| sample.symbol);
         Self { place: PatchPlace::Flat(place), height, slope, curvature, latitude: 0.0, symbol }
     }
+
+    fn properties(&self) -> [f64; 4] {
+        [self.height, self.slope, self.curvature, self.latitude]
+    }
+}
+
+/// Fade-in of a mask over the range of a property.
+struct Fade {
+    /// Index in [`GroundPoint::properties`].
+    property: usize,
+    from: f64,
+    to: f64,
+}
+
+impl Fade {
+    /// Returns the position of a point along the fade-in: 0 at its start, 1 at its end.
+    fn along(&self, point: &GroundPoint<'_>) -> f64 {
+        let value = point.properties()[self.property];
+        if self.from == self.to {
+            return f64::from(u8::from(value >= self.from));
+        }
+        (value - self.from) / (self.to - self.from)
+    }
+}
+
+/// The effect of noise on the strength of a mask at a point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum NoiseEffect {
+    /// The strength is 0 with any noise.
+    Hidden,
+    /// The strength is the same with any noise.
+    None,
+    /// The strength depends on the noise.
+    Some,
 }
 
 impl Mask {
+    /// Returns the ranges of the fade-ins with their names, in the order of [`GroundPoint::properties`].
     fn ranges(&self) -> [(&'static str, &[f64]); 4] {
         [
             ("height", &self.height),
@@ -122,6 +159,15 @@ impl Mask {
             ("curvature", &self.curvature),
             ("latitude", &self.latitude),
         ]
+    }
+
+    /// Returns the fade-ins of the mask.
+    fn fades(&self) -> impl Iterator<Item = Fade> {
+        let fade = |(property, (_, range)): (usize, (_, &[f64]))| match *range {
+            [from, to] => Some(Fade { property, from, to }),
+            _ => None,
+        };
+        self.ranges().into_iter().enumerate().filter_map(fade)
     }
 
     /// Returns true if the mask depends on the curvature of the ground.
@@ -143,33 +189,74 @@ impl Mask {
     }
 
     /// Returns the strength (0 to 1) of the mask at a point. Masks with a different `seed` have different patches.
-    pub(crate) fn at(&self, spot: &GroundPoint<'_>, seed: u64) -> f64 {
-        let here = |symbol: &String| spot.symbol == Some(symbol.as_str());
+    pub(crate) fn at(&self, point: &GroundPoint<'_>, seed: u64) -> f64 {
+        self.along(slice::from_ref(point), seed).first().copied().unwrap_or(0.0)
+    }
+
+    /// Returns the strength (0 to 1) of the mask at each of `points`. Points in a row from west to east are faster than single ones.
+    pub(crate) fn along(&self, points: &[GroundPoint<'_>], seed: u64) -> Vec<f64> {
+        let fades: Vec<Fade> = self.fades().collect();
+        let effects: Vec<NoiseEffect> = points.iter().map(|point| self.noise_effect(point, &fades)).collect();
+        let mut strengths = Vec::with_capacity(points.len());
+        for run in effects.chunk_by(|a, b| a == b) {
+            let points = &points[strengths.len()..][..run.len()];
+            match run[0] {
+                NoiseEffect::Hidden => strengths.extend(points.iter().map(|_| 0.0)),
+                NoiseEffect::None => {
+                    strengths.extend(points.iter().map(|point| strength(&fades, point, 0.0)))
+                }
+                NoiseEffect::Some => {
+                    let noise = self.noise_along(points, seed);
+                    strengths.extend(points.iter().zip(noise).map(|(point, noise)| {
+                        let patches = 1.0 - self.patches * (1.0 - ease(0.5 + 2.5 * noise));
+                        patches * strength(&fades, point, noise * self.noise)
+                    }));
+                }
+            }
+        }
+        strengths
+    }
+
+    /// Returns how noise changes the strength at a point. Noise that cannot change it is not computed.
+    fn noise_effect(&self, point: &GroundPoint<'_>, fades: &[Fade]) -> NoiseEffect {
+        let here = |symbol: &String| point.symbol == Some(symbol.as_str());
         if !self.symbols.is_empty() && !self.symbols.iter().any(here) {
-            return 0.0;
+            return NoiseEffect::Hidden;
         }
-        let values = [spot.height, spot.slope, spot.curvature, spot.latitude];
-        let along = |((_, range), value): ((&str, &[f64]), f64)| match *range {
-            [from, to] if from == to => Some(f64::from(u8::from(value >= from))),
-            [from, to] => Some((value - from) / (to - from)),
-            _ => None,
+        let least = fades.iter().map(|fade| fade.along(point)).fold(f64::INFINITY, f64::min);
+        if least <= -self.noise {
+            NoiseEffect::Hidden
+        } else if self.patches > 0.0 || (self.noise > 0.0 && least < 1.0 + self.noise) {
+            NoiseEffect::Some
+        } else {
+            NoiseEffect::None
+        }
+    }
+
+    /// Returns the noise at each of `points`.
+    fn noise_along(&self, points: &[GroundPoint<'_>], seed: u64) -> Vec<f64> {
+        let flat = |point: &GroundPoint<'_>| match point.place {
+            PatchPlace::Flat(place) => Some(place / self.scale),
+            PatchPlace::Round(..) => None,
         };
-        let fades = || self.ranges().into_iter().zip(values).filter_map(along);
-        // Noise that cannot change the result is not computed.
-        if fades().any(|along| along <= -self.noise) {
-            return 0.0;
+        if let Some(places) = points.iter().map(flat).collect::<Option<Vec<DVec2>>>() {
+            let mut noise = vec![0.0; places.len()];
+            octaves_along(&places, 4, seed, &mut noise);
+            return noise;
         }
-        let noisy = self.patches > 0.0 || (self.noise > 0.0 && fades().any(|along| along < 1.0 + self.noise));
-        let noise = match spot.place {
-            _ if !noisy => 0.0,
+        let noise = |point: &GroundPoint<'_>| match point.place {
             PatchPlace::Flat(place) => octaves(place / self.scale, 4, seed),
             PatchPlace::Round(place, grain) => {
                 octaves_around(place / self.scale, 4, seed, grain / self.scale)
             }
         };
-        let patches = 1.0 - self.patches * (1.0 - ease(0.5 + 2.5 * noise));
-        patches * fades().map(|along| ease(along + noise * self.noise)).product::<f64>()
+        points.iter().map(noise).collect()
     }
+}
+
+/// Returns the product of `fades` at a point, shifted by `shift`.
+fn strength(fades: &[Fade], point: &GroundPoint<'_>, shift: f64) -> f64 {
+    fades.iter().map(|fade| ease(fade.along(point) + shift)).product()
 }
 
 fn ease(along: f64) -> f64 {

@@ -1,45 +1,38 @@
 //! Deterministic smooth noise between -1 and 1.
 
-use std::cell::RefCell;
-
 use glam::{DVec2, DVec3};
 
-/// Cell of the noise of a seed.
-#[derive(Clone, Copy)]
-struct NoiseCell {
-    /// Corner with the least coordinates.
-    place: DVec2,
-    seed: u64,
-    /// Numbers of the corners: near left, near right, far left and far right.
-    corners: [f64; 4],
-}
-
-/// Number of cells that a thread keeps.
-const CELLS: usize = 16;
-
-thread_local! {
-    /// The last cells: places often follow each other in rows, and the cells of the coarse octaves are large.
-    static LAST_CELLS: RefCell<[NoiseCell; CELLS]> =
-        const { RefCell::new([NoiseCell { place: DVec2::NAN, seed: 0, corners: [0.0; 4] }; CELLS]) };
-}
-
-/// Returns value noise at `place`, with a feature size of 1. `last` is replaced by the cell of the place.
-fn noise(place: DVec2, seed: u64, last: &mut NoiseCell) -> f64 {
-    let cell = DVec2::new(floor(place.x), floor(place.y));
-    let part = place - cell;
-    // Quintic interpolation has continuous curvature at the borders of cells.
-    let ease = part * part * part * (part * (part * 6.0 - 15.0) + 10.0);
-    // The two zeros have different corners.
-    let is_last = |a: f64, b: f64| a.to_bits() == b.to_bits();
-    if last.seed != seed || !is_last(last.place.x, cell.x) || !is_last(last.place.y, cell.y) {
+/// Adds value noise with a feature size of 1 at `places`, enlarged by `scale` and multiplied by `strength`, to `sums`. Places in a row
+/// from west to east are fast, because those in the same cell share its corners.
+fn add_noise(places: &[DVec2], scale: f64, strength: f64, seed: u64, sums: &mut [f64]) {
+    let mut first = 0;
+    while let Some(&place) = places.get(first) {
+        let begin = place * scale;
+        let cell = DVec2::new(floor(begin.x), floor(begin.y));
         let at = |right: f64, down: f64| corner(cell.x + right, cell.y + down, seed);
-        let corners = [at(0.0, 0.0), at(1.0, 0.0), at(0.0, 1.0), at(1.0, 1.0)];
-        *last = NoiseCell { place: cell, seed, corners };
+        let [near_left, near_right, far_left, far_right] =
+            [at(0.0, 0.0), at(1.0, 0.0), at(0.0, 1.0), at(1.0, 1.0)];
+        let (near, far) = (near_right - near_left, far_right - far_left);
+        let down = ease(begin.y - cell.y);
+        let is_beside = |other: &DVec2| {
+            let x = other.x * scale;
+            x >= cell.x && x < cell.x + 1.0 && other.y.to_bits() == place.y.to_bits()
+        };
+        let count = 1 + places[first + 1..].iter().take_while(|other| is_beside(other)).count();
+        let row = first..first + count;
+        for (place, sum) in places[row.clone()].iter().zip(&mut sums[row]) {
+            let right = ease(place.x * scale - cell.x);
+            let (near, far) = (near_left + near * right, far_left + far * right);
+            *sum += (near + (far - near) * down) * strength;
+        }
+        first += count;
     }
-    let [near_left, near_right, far_left, far_right] = last.corners;
-    let near = near_left + (near_right - near_left) * ease.x;
-    let far = far_left + (far_right - far_left) * ease.x;
-    near + (far - near) * ease.y
+}
+
+/// Returns the quintic interpolation between 0 and 1, which has continuous curvature at the borders of cells.
+#[inline]
+fn ease(part: f64) -> f64 {
+    part * part * part * (part * (part * 6.0 - 15.0) + 10.0)
 }
 
 /// Returns noise of `octaves` octaves, each half as large and half as strong as the previous one.
@@ -58,36 +51,52 @@ fn noise(place: DVec2, seed: u64, last: &mut NoiseCell) -> f64 {
 ///     assert!(at(x).abs() <= 1.0 && (at(x) - at(x + 1e-6)).abs() < 1e-4);
 /// }
 /// ```
-#[allow(clippy::cast_possible_truncation, reason = "the lowest bits select a cell")]
 pub fn octaves(place: DVec2, octaves: u32, seed: u64) -> f64 {
-    let (mut sum, mut whole, mut strength, mut scale) = (0.0, 0.0, 1.0, 1.0);
-    LAST_CELLS.with_borrow_mut(|cells| {
-        for octave in 0..octaves {
-            let seed = seed.wrapping_add(u64::from(octave));
-            let last = &mut cells[seed as usize % CELLS];
-            sum += noise(place * scale, seed, last) * strength;
-            whole += strength;
-            (strength, scale) = (strength * 0.5, scale * 2.03);
-        }
-    });
-    if whole > 0.0 { sum / whole } else { 0.0 }
+    let mut noise = [0.0];
+    octaves_along(&[place], octaves, seed, &mut noise);
+    noise[0]
+}
+
+/// Writes the noise of [`octaves`] at each of `places` to `noise`, which has the same length. Places in a row from west to east take a
+/// fraction of the time of single ones.
+///
+/// ```
+/// use burgeon_terrain::{octaves, octaves_along};
+/// use glam::DVec2;
+///
+/// let row: Vec<DVec2> = (0..100).map(|step| DVec2::new(f64::from(step) * 0.07, 7.3)).collect();
+/// let mut noise = vec![0.0; row.len()];
+/// octaves_along(&row, 4, 5, &mut noise);
+/// assert!(row.iter().zip(&noise).all(|(place, noise)| octaves(*place, 4, 5) == *noise));
+/// ```
+pub fn octaves_along(places: &[DVec2], octaves: u32, seed: u64, noise: &mut [f64]) {
+    noise.fill(0.0);
+    let (mut whole, mut strength, mut scale) = (0.0, 1.0, 1.0);
+    for octave in 0..octaves {
+        add_noise(places, scale, strength, seed.wrapping_add(u64::from(octave)), noise);
+        whole += strength;
+        (strength, scale) = (strength * 0.5, scale * 2.03);
+    }
+    if whole > 0.0 {
+        noise.iter_mut().for_each(|noise| *noise /= whole);
+    }
 }
 
 /// Returns value noise at `place` in space, with a feature size of 1.
 fn noise_around(place: DVec3, seed: u64) -> f64 {
     let cell = place.floor();
     let part = place - cell;
-    let ease = part * part * part * (part * (part * 6.0 - 15.0) + 10.0);
+    let [right, down, up] = part.to_array().map(ease);
     let level = |up: f64| {
         // Each level of corners has a different seed.
         let seed = seed ^ (cell.z + up + 0.0).to_bits().wrapping_mul(0xD6E8_FEB8_6659_FD93);
         let at = |right: f64, down: f64| corner(cell.x + right, cell.y + down, seed);
-        let near = at(0.0, 0.0) + (at(1.0, 0.0) - at(0.0, 0.0)) * ease.x;
-        let far = at(0.0, 1.0) + (at(1.0, 1.0) - at(0.0, 1.0)) * ease.x;
-        near + (far - near) * ease.y
+        let near = at(0.0, 0.0) + (at(1.0, 0.0) - at(0.0, 0.0)) * right;
+        let far = at(0.0, 1.0) + (at(1.0, 1.0) - at(0.0, 1.0)) * right;
+        near + (far - near) * down
     };
     let below = level(0.0);
-    below + (level(1.0) - below) * ease.z
+    below + (level(1.0) - below) * up
 }
 
 /// Returns noise like [`octaves`] at a point in space, without the octaves that are smaller than `finest`.
