@@ -11,8 +11,9 @@ use super::tone;
 use super::visible::Visible;
 use burgeon_base::srgb_byte;
 use burgeon_scene::image::Image;
-use glam::{Vec3, Vec3A, Vec4};
+use glam::{Vec2, Vec3, Vec3A, Vec4};
 use rayon::prelude::*;
+use std::f32::consts::TAU;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Maximum number of samples in memory, which takes 8 bytes for each.
@@ -100,7 +101,7 @@ fn tile(
     for (pixel, color) in colors.iter_mut().enumerate() {
         let first = fragments.len();
         let [x, y] = at(pixel);
-        let noise = noise(x as u32, y as u32, 1);
+        let spin = Vec2::from_angle(noise(x as u32, y as u32, 1) * TAU);
         while let Some((&SampleGroup { weight, place, .. }, triangle)) =
             pairs.next_if(|(group, _)| group.pixel == pixel)
         {
@@ -123,7 +124,7 @@ fn tile(
                     }
                 },
             };
-            fragments.push(Fragment::new(surface, noise, fragments.len()));
+            fragments.push(Fragment::new(surface, spin, fragments.len()));
             shares.push(FragmentShare { pixel, weight, ground });
         }
         if !detail.pools_light {

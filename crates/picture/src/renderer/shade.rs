@@ -9,7 +9,7 @@ use super::sun::Sun;
 use super::surface::SurfacePoint;
 use super::texture::MaterialImages;
 use glam::{Vec2, Vec3, Vec3A};
-use std::f32::consts::{PI, TAU};
+use std::f32::consts::PI;
 
 /// Fraction of light that passes through leaves.
 const THROUGH: f32 = 0.32;
@@ -50,8 +50,8 @@ pub(super) struct Fragment {
     pub share: (usize, usize),
     /// Index and number of the fragments of the same pixel that share the lookups in the sun's map.
     pub crowd: (usize, usize),
-    /// Number from 0 to 1 that varies from pixel to pixel.
-    pub noise: f32,
+    /// Unit vector that rotates patterns of lookups. It varies from pixel to pixel.
+    pub spin: Vec2,
     /// Index of the light that the fragment gathers, alone or with others.
     pub pool: usize,
 }
@@ -67,8 +67,8 @@ pub(super) struct GatheredLight {
 
 impl Fragment {
     /// Creates a fragment that gathers the light `pool`.
-    pub(super) fn new(surface: SurfacePoint, noise: f32, pool: usize) -> Self {
-        Self { surface, share: (0, 1), crowd: (0, 1), noise, pool }
+    pub(super) fn new(surface: SurfacePoint, spin: Vec2, pool: usize) -> Self {
+        Self { surface, share: (0, 1), crowd: (0, 1), spin, pool }
     }
 
     /// Returns true if another `surface` in the same pixel would look the same.
@@ -116,7 +116,7 @@ impl Probe {
             plane: surface.plane,
             normal: surface.normal,
             mirror: surface.mirror(),
-            spin: Vec2::from_angle(fragment.noise * TAU),
+            spin: fragment.spin,
             share: fragment.share,
             pool: fragment.pool,
         }
@@ -222,14 +222,14 @@ impl Light<'_> {
         let sharp = 1.0 - smooth(MIRROR[0], MIRROR[1], surface.roughness);
         match self.tracer {
             Some(tracer) if sharp > 0.0 && part > MIRRORED => {
-                estimate.lerp(self.trace(tracer, surface, fragment.noise), sharp)
+                estimate.lerp(self.trace(tracer, surface, fragment.spin), sharp)
             }
             _ => estimate,
         }
     }
 
     /// Returns the light of the model or of its surroundings that `surface` mirrors.
-    fn trace(&self, tracer: &Tracer, surface: &SurfacePoint, noise: f32) -> Vec3 {
+    fn trace(&self, tracer: &Tracer, surface: &SurfacePoint, spin: Vec2) -> Vec3 {
         let direction = surface.mirror();
         // A mirror on a smooth surface may point below the triangle.
         let below = (0.02 - direction.dot(surface.plane)).max(0.0);
@@ -237,7 +237,7 @@ impl Light<'_> {
         let footprint = self.camera.footprint(surface.position).max(0.0);
         let origin = surface.rounded + surface.plane * (2e-5 + 0.25 * footprint);
         match tracer.meet(origin, direction) {
-            Some(point) => self.mirrored(&point, direction, footprint * (1.0 + point.distance), noise),
+            Some(point) => self.mirrored(&point, direction, footprint * (1.0 + point.distance), spin),
             None => {
                 self.sky.reflection(direction, surface.roughness) * self.strength(surface.position, direction)
             }
@@ -246,7 +246,7 @@ impl Light<'_> {
 
     /// Returns the light that a mirrored `point` sends back along `direction`. A pixel covers this `footprint` of it (stage
     /// units).
-    fn mirrored(&self, point: &MirroredPoint, direction: Vec3A, footprint: f32, noise: f32) -> Vec3 {
+    fn mirrored(&self, point: &MirroredPoint, direction: Vec3A, footprint: f32, spin: Vec2) -> Vec3 {
         let number = point.draw.part.material;
         let material = &self.stage.materials[number];
         let [red, green, blue, _] = material.base_color;
@@ -275,7 +275,7 @@ impl Light<'_> {
         let mut light = self.sky.open(point.normal) * bounce_light(Vec3::splat(open), diffuse);
         let toward = point.normal.dot(self.sun.direction);
         if toward > 0.0 {
-            let sun = self.sun.visibility(point.position, point.normal, noise * TAU, (0, 3));
+            let sun = self.sun.visibility(point.position, point.normal, spin, (0, 3));
             light += self.sun.light * (toward * sun);
         }
         let facing = -direction.dot(point.normal);
@@ -293,15 +293,14 @@ impl Light<'_> {
         let sky = self.sky.open(Vec3A::Z);
         let sun = self.sun.light * self.sun.direction.z;
         // The edges of shadows on the ground are visible, so pixels that share the sky's light do not share the sun's.
-        let turn = fragment.noise * TAU;
-        let seen = self.sun.visibility(fragment.surface.rounded, Vec3A::Z, turn, (0, 1));
+        let seen = self.sun.visibility(fragment.surface.rounded, Vec3A::Z, fragment.spin, (0, 1));
         let part = (sky * bounce_light(gathered.openness(), Vec3::splat(0.5)) + sun * seen) / (sky + sun);
         // Halve the blue tint, because the eye perceives the sky's light as white.
         part.lerp(Vec3::splat(part.element_sum() / 3.0), 0.5)
     }
 
     fn sun_seen(&self, fragment: &Fragment, point: Vec3A, normal: Vec3A) -> f32 {
-        self.sun.visibility(point, normal, fragment.noise * TAU, fragment.crowd)
+        self.sun.visibility(point, normal, fragment.spin, fragment.crowd)
     }
 
     /// Returns the sun's highlight for unit irradiance: GGX with the height-correlated Smith term and Schlick's Fresnel

@@ -140,11 +140,11 @@ impl Sun {
     /// Returns the fraction of the sun, 0 to 1, visible from `point` on a surface with the unit normal `normal` towards
     /// the sun.
     ///
-    /// `turn` (rad) rotates the pattern of lookups; vary it from pixel to pixel. `share` is the index of the point
+    /// `spin` is a unit vector that rotates the pattern of lookups; vary it from pixel to pixel. `share` is the index of the point
     /// among those that share a pixel, and their number; each point then gets fewer lookups. Method: percentage-closer
     /// soft shadows (Fernando, 2005). Each lookup is compared with the surface's own plane, so that a wide pattern does
     /// not shade the surface.
-    pub(super) fn visibility(&self, point: Vec3A, normal: Vec3A, turn: f32, share: (usize, usize)) -> f32 {
+    pub(super) fn visibility(&self, point: Vec3A, normal: Vec3A, spin: Vec2, share: (usize, usize)) -> f32 {
         let (place, share) = share;
         let texel = self.frame.texel;
         let lifted = point + normal * (1.5 * texel);
@@ -162,18 +162,17 @@ impl Sun {
             (found < expected).then_some(expected - found)
         };
 
-        let turn = Vec2::from_angle(turn);
         if self.pools_light && share > 2 {
             // The mean of the pixel's points is as smooth as a wide penumbra, and the width is not visible among them.
             let taps = (self.disc.len() / share).max(4);
             let offsets = self.disc.iter().cycle().skip(taps * place).take(taps);
-            let lit = offsets.filter(|offset| compare(turn.rotate(**offset) * CROWDED).is_none()).count();
+            let lit = offsets.filter(|offset| compare(spin.rotate(**offset) * CROWDED).is_none()).count();
             return lit as f32 / taps as f32;
         }
         let searches = (self.disc.len() / 2 / share).max(4);
         let (mut blocked, mut distance) = (0.0_f32, 0.0_f32);
         for offset in self.disc.iter().cycle().skip(7 * place).take(searches) {
-            if let Some(gap) = compare(turn.rotate(*offset) * widest) {
+            if let Some(gap) = compare(spin.rotate(*offset) * widest) {
                 blocked += 1.0;
                 distance += gap;
             }
@@ -184,7 +183,7 @@ impl Sun {
         let radius = (SOFTNESS * distance / blocked / texel).clamp(1.3, widest);
         let taps = (self.disc.len() / share).max(6);
         let offsets = self.disc.iter().cycle().skip(taps * place).take(taps);
-        let lit = offsets.filter(|offset| compare(turn.rotate(**offset) * radius).is_none()).count();
+        let lit = offsets.filter(|offset| compare(spin.rotate(**offset) * radius).is_none()).count();
         lit as f32 / taps as f32
     }
 }
@@ -226,11 +225,14 @@ mod tests {
             &RenderDetail::of(Quality::Draft, 12),
         );
         let behind = stage.bounds.0.with_x(0.0).with_y(0.0) - sun.direction.with_z(0.0) * 0.7;
-        assert!(sun.visibility(behind, Vec3A::Z, 0.0, (0, 1)) < 0.01);
+        assert!(sun.visibility(behind, Vec3A::Z, Vec2::X, (0, 1)) < 0.01);
         let top = stage.bounds.1.z;
         for i in 0..100 {
             let point = Vec3A::new((i % 10) as f32 * 0.1 - 0.45, (i / 10) as f32 * 0.1 - 0.45, top);
-            assert!(sun.visibility(point, Vec3A::Z, i as f32, (0, 1)) > 0.99, "acne at {point}");
+            assert!(
+                sun.visibility(point, Vec3A::Z, Vec2::from_angle(i as f32), (0, 1)) > 0.99,
+                "acne at {point}"
+            );
         }
     }
 

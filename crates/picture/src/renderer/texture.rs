@@ -199,12 +199,9 @@ impl TextureLevel {
     /// Interpolates the results of `value` for the four pixels nearest to `at`.
     #[inline]
     fn mix(&self, at: Vec2, value: impl Fn([u8; 4]) -> Vec4) -> Vec4 {
-        let x = (at.x - at.x.floor()) * self.width as f32 - 0.5;
-        let y = (1.0 - (at.y - at.y.floor())) * self.height as f32 - 0.5;
-        let wrap = |i: f32, count: usize| (i as i64).rem_euclid(count as i64) as usize;
-        let (left, right) = (wrap(x.floor(), self.width), wrap(x.floor() + 1.0, self.width));
-        let (top, bottom) = (wrap(y.floor(), self.height), wrap(y.floor() + 1.0, self.height));
-        let (tx, ty) = (x - x.floor(), y - y.floor());
+        let part = at - at.floor();
+        let (left, right, tx) = neighbours(part.x, self.width);
+        let (top, bottom, ty) = neighbours(1.0 - part.y, self.height);
         let pixel = |x: usize, y: usize| value(self.pixels[y * self.width + x]);
         let upper = pixel(left, top).lerp(pixel(right, top), tx);
         let lower = pixel(left, bottom).lerp(pixel(right, bottom), tx);
@@ -228,6 +225,18 @@ impl TextureLevel {
     }
 }
 
+/// Returns the two of `count` pixels whose centres are nearest to the fraction `part` of a repeated image, and the position, 0 to 1,
+/// between them.
+#[inline]
+fn neighbours(part: f32, count: usize) -> (usize, usize, f32) {
+    // A cast rounds down, since this is not negative.
+    let along = part * count as f32 + 0.5;
+    let before = (along as i32 as usize).min(count);
+    let first = if before == 0 { count - 1 } else { before - 1 };
+    let second = if before == count { 0 } else { before };
+    (first, second, along - before as f32)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -242,6 +251,21 @@ mod tests {
         });
         let error = load(&[Material { texture, ..Material::default() }]).unwrap_err();
         assert!(error.to_string().contains("brick/no such.png"), "{error}");
+    }
+
+    #[test]
+    fn neighbours_are_the_pixels_with_the_nearest_centres() {
+        for count in [1, 2, 5] {
+            for step in 0..=100 {
+                let part = step as f32 / 100.0;
+                let (first, second, between) = neighbours(part, count);
+                let whole = count as f32;
+                let exact = (part * whole - 0.5).floor();
+                let wrap = |i: f32| i.rem_euclid(whole) as usize;
+                assert_eq!((first, second), (wrap(exact), wrap(exact + 1.0)), "{part} of {count}");
+                assert!((part * whole - 0.5 - exact - between).abs() < 1e-5);
+            }
+        }
     }
 
     #[test]
