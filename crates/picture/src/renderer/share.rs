@@ -144,10 +144,10 @@ mod tests {
     use super::super::surface::SurfacePoint;
     use super::super::view::Viewpoint;
     use super::*;
-    use glam::Vec3A;
+    use glam::{Vec2, Vec3A};
 
     fn fragment(camera: &Camera, position: Vec3A, pool: usize) -> Fragment {
-        Fragment::new(SurfacePoint::ground(position, camera), 0.0, pool)
+        Fragment::new(SurfacePoint::ground(position, camera), Vec2::X, pool)
     }
 
     #[test]
