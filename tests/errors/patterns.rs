@@ -427,7 +427,7 @@ fn a_system_tells_what_it_takes() {
       help: did you mean object?
     ");
     assert_snapshot!(refused("local s = lsystem({ object = 3 })\n"), @r"
-    error: s.lua:1:11: lsystem: object must be an object
+    error: s.lua:1:11: lsystem: object must be an object, not a number
       | local s = lsystem({ object = 3 })
       |           ^^^^^^^
       help: write object = turtle()

@@ -3,7 +3,7 @@
 use crate::support::refused;
 
 /// Script, line of the slip, and part of the remedy.
-const SLIPS: [(&str, usize, &str); 67] = [
+const SLIPS: [(&str, usize, &str); 88] = [
     ("local a = [1, 2]", 1, "with braces: { 1, 2 }"),
     ("local a = { [1, 2], [3, 4] }", 1, "with braces: { 1, 2 }"),
     ("local a = 2 ** 3", 1, "x ^ 2"),
@@ -39,7 +39,7 @@ const SLIPS: [(&str, usize, &str); 67] = [
     ("local n = 3\nif n > 2 then print(1) elif n > 1 then print(2) end", 2, "elseif"),
     ("local f = function(x) { return x }", 1, "no braces"),
     ("local function f(x)\n  return x\n  print(x)\nend", 3, "return last"),
-    ("local function f(x)\n  if x then\n    print(x)\nend\n", 5, "end for the if in line 2"),
+    ("local function f(x)\n  if x then\n    print(x)\nend\n", 4, "end for the if in line 2"),
     (
         "local s = lsystem({ object = turtle() })\ns:interpret(\"F\", function(this)\n  for i = 1, 2 do\n    this:forward(i)\nend)\ns:derive()",
         5,
@@ -90,6 +90,43 @@ const SLIPS: [(&str, usize, &str); 67] = [
         "local A = module(\"A\")\nlocal s = lsystem()\ns:axiom(A())\ns:rule(\"A\", function(this)\n  return \"F[+F]\"\nend)\ns:derive(1)",
         5,
         "in place of the function",
+    ),
+    (
+        "local F = module(\"F\", \"n\")\nlocal f = function(n)\n  return F(n) F(n)\nend",
+        3,
+        "a comma between two values",
+    ),
+    ("local t = { a = 1 b = 2 }", 1, "a comma between two fields"),
+    ("local n = 3\nif n > 2: print(n)\n", 2, "without a colon"),
+    ("for i in list: print(i)\n", 1, "without a colon"),
+    ("local s = lsystem({})\ns:rule(\"F -> FF\")", 2, "system:rule(\"F\", \"FF\")"),
+    ("local s = lsystem({})\ns:rule(\"F = FF\")", 2, "system:rule(\"F\", \"FF\")"),
+    ("local s = lsystem({})\ns:rule(\"F(n) : n > 1\", \"FF\")", 2, "{ when = function"),
+    ("local s = lsystem({ object = turtle(), steps = 5 })", 1, "system:derive(5)"),
+    ("local s = lsystem({ object = turtle(), angle = 25 })", 1, "turtle({ angle = 25 })"),
+    ("local s = lsystem({ object = \"turtle\" })", 1, "write object = turtle()"),
+    ("local s = lsystem({})\ns.axiom = { F(1) }", 2, "system:axiom("),
+    ("local s = lsystem({})\ns:iterate(4)", 2, "system:derive(5)"),
+    ("local s = lsystem({})\ns:export(\"tree.glb\")", 2, "burgeon run script.lua -o model.glb"),
+    (
+        "local s = lsystem({ object = turtle() })\ns:axiom(\"F\")\ns:derive():save(\"tree.glb\")",
+        3,
+        "burgeon run script.lua -o",
+    ),
+    ("local s = turtle()\ns:axiom(\"F\")", 2, "lsystem({ object = turtle() })"),
+    ("save(\"tree.glb\")", 1, "burgeon run script.lua -o model.glb"),
+    ("local a = cube(2)", 1, "cuboid(x, y, z)"),
+    ("local t = {}\nt.push(3)", 2, "table.insert(list, value)"),
+    ("local a = F(1) + F(2)", 1, "one after another"),
+    (
+        "local A = module(\"A\")\nlocal s = lsystem()\ns:axiom(A())\ns:rule(\"A\", function(this)\n  return A() + A()\nend)\ns:derive(1)",
+        5,
+        "one after another",
+    ),
+    (
+        "local A = module(\"A\")\nlocal s = lsystem()\ns:axiom(A())\ns:rule(\"A\", function(this)\n  return A() .. A()\nend)\ns:derive(1)",
+        5,
+        "one after another",
     ),
 ];
 

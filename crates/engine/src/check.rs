@@ -78,9 +78,7 @@ fn checked(session: &Arc<Session>, run: impl FnOnce(&Machine) -> Result<()>) -> 
     let mut found = Vec::new();
     let ran = declare_with(session, &mut found, run);
     let mut problems = session.problems();
-    let (of_calls, warnings) = session.call_problems();
-    problems.extend(of_calls);
-    warnings.into_iter().for_each(|warning| session.warn(warning));
+    problems.extend(session.call_problems());
     problems.retain(|known| !found.iter().any(|found| misses_same(known, found)));
     problems.extend(found);
     if let Err(error) = ran {

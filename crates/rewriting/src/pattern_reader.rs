@@ -485,6 +485,12 @@ impl<'a> PatternReader<'a> {
         if self.text.chars().count() > before.saturating_sub(AROUND) + 2 * AROUND {
             line.push_str("...");
         }
+        let help = match self.text[self.at..].starts_with(':') {
+            true => {
+                "give conditions as an option: system:rule(\"F(n)\", { when = function(this, n) return n > 1 end }, ...)"
+            }
+            false => help,
+        };
         Error::syntax(format!(
             "malformed pattern: {found} at character {}\n    {line}\n    {}^",
             before + 1,

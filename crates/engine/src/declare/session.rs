@@ -403,9 +403,8 @@ impl Session {
         required.entry(asker.to_owned()).or_default().insert(name.to_owned(), meant.to_owned());
     }
 
-    /// Returns the errors in the calls of all files and warnings about their rules, once the script has declared its object
-    /// types.
-    pub(crate) fn call_problems(&self) -> (Vec<Error>, Vec<Warning>) {
+    /// Returns the errors in the calls of all files, once the script has declared its object types.
+    pub(crate) fn call_problems(&self) -> Vec<Error> {
         let (required, none) = (self.required.lock().recover(), BTreeMap::new());
         let scripts = self.script_files();
         let mut files: Vec<CheckedFile> = scripts

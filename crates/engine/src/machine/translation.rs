@@ -93,6 +93,9 @@ fn parse(text: &str) -> Error {
         Some(end) if message.len() > LONGEST_MESSAGE => &message[..end],
         _ => message,
     };
+    // Modules that a rule makes are vectors for Luau, and scripts have no others.
+    let named = message.starts_with("attempt to").then(|| message.replace("vector", "module"));
+    let message = named.as_deref().unwrap_or(message);
     if place.is_none() && is_no_text(message) {
         return Error::script("the script raised an error that is not a string")
             .at(places(traceback).next())

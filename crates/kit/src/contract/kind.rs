@@ -379,6 +379,12 @@ impl Kind {
         names.dedup();
         let message = format!("unknown method or field `{name}` of {}", self.name);
         let error = Error::not_found("method", name, names.iter().copied(), message);
+        if matches!(name, "axiom" | "rule" | "interpret" | "decompose" | "derive") {
+            let system = format!("local s = lsystem({{ object = {}() }})", self.name);
+            return error.rather_help(format!(
+                "write {system}, and s:{name}(...): systems have rules, and objects draw"
+            ));
+        }
         let alike: Vec<&str> = synonyms(name).iter().filter(|known| names.contains(known)).copied().collect();
         if alike.is_empty() {
             error.help(format!("it has {}", names.join(", ")))

@@ -16,14 +16,12 @@ use full_moon::node::Node;
 use full_moon::tokenizer::TokenReference;
 
 use super::blocks::ScopeWalk;
-use super::endings::forgotten_return;
 use super::inference::Inference;
 use super::prepare::signature;
 use super::syntax::{columns_between, is_function_option, string_of, text_of};
 use super::walk::FunctionRole;
 use crate::Literal;
 use burgeon_base::error::Error;
-use burgeon_base::warning::Warning;
 use burgeon_kit::{Kind, Registry};
 
 /// Walk that checks the calls of a script.
@@ -47,8 +45,6 @@ pub(super) struct CallCheck<'a, 'f> {
     /// Function that infers the value that another file returns, from the name in `require`.
     pub(super) required: Option<&'f dyn Fn(&str) -> Inference<'a>>,
     pub(super) problems: Vec<Error>,
-    /// Warnings about functions of rules.
-    pub(super) warnings: Vec<Warning>,
 }
 
 /// Collects the names of all assigned variables, and of all declared types.
@@ -127,7 +123,6 @@ impl<'a, 'f> CallCheck<'a, 'f> {
             rule,
             required,
             problems: Vec::new(),
-            warnings: Vec::new(),
         }
     }
 
@@ -247,12 +242,6 @@ impl<'a, 'f> CallCheck<'a, 'f> {
         let role = if call == "interpret" { FunctionRole::Interpretation } else { FunctionRole::Rule };
         let found = args.iter().map(|arg| match arg {
             Expression::Function(function) => {
-                if matches!(call, "rule" | "decompose") {
-                    let warning = forgotten_return(self.file, function.body());
-                    let rule = self.rule.clone();
-                    let warning = warning.map(|warning| rule.into_iter().fold(warning, Warning::rule));
-                    self.warnings.extend(warning);
-                }
                 self.role = role;
                 self.function(function.body(), kind);
                 self.role = outer.0;

@@ -1,9 +1,10 @@
 //! Ends of the functions of rules: paths that end without a return, while others return modules.
 
-use full_moon::ast::{Block, FunctionBody, LastStmt, Stmt};
+use full_moon::ast::{Ast, Block, Expression, FunctionArgs, FunctionBody, LastStmt, MethodCall, Stmt};
 use full_moon::node::Node;
+use full_moon::visitors::Visitor;
 
-use super::syntax::columns_between;
+use super::syntax::{columns_between, string_of, text_of};
 use burgeon_base::error::SourcePlace;
 use burgeon_base::warning::{Warning, WarningKind};
 
@@ -22,11 +23,41 @@ struct BlockEnds {
 
 type SourceLine = usize;
 
+/// Returns warnings about the functions of the rules of a file that forget to return.
+pub(super) fn forgotten_returns(file: &str, text: &str, ast: &Ast) -> Vec<Warning> {
+    if !text.contains("rule") && !text.contains("decompose") {
+        return Vec::new();
+    }
+    let mut walk = RuleWalk { file, warnings: Vec::new() };
+    walk.visit_ast(ast);
+    walk.warnings
+}
+
+/// Walk through the rules of a file.
+struct RuleWalk<'a> {
+    file: &'a str,
+    warnings: Vec<Warning>,
+}
+
+impl Visitor for RuleWalk<'_> {
+    fn visit_method_call(&mut self, call: &MethodCall) {
+        let FunctionArgs::Parentheses { arguments, .. } = call.args() else { return };
+        let arguments: Vec<&Expression> = arguments.iter().collect();
+        if let ("rule" | "decompose", [Expression::String(pattern), .., Expression::Function(function)]) =
+            (&*text_of(call.name()), &*arguments)
+        {
+            let warning = forgotten_return(self.file, function.body());
+            self.warnings
+                .extend(warning.map(|warning| string_of(pattern).into_iter().fold(warning, Warning::rule)));
+        }
+    }
+}
+
 /// Returns the warning about a rule's function that never returns, or that on one path does something and then ends without a
 /// return, although it returns modules on another.
 ///
 /// A path that only tests conditions is a usual way to leave a module unchanged.
-pub(super) fn forgotten_return(file: &str, body: &FunctionBody) -> Option<Warning> {
+fn forgotten_return(file: &str, body: &FunctionBody) -> Option<Warning> {
     let ends = block_ends(body.block());
     let (line, columns) = ends.last.filter(|_| ends.falls)?;
     let (message, help) = match (ends.returns, ends.returns_values) {
@@ -127,7 +158,6 @@ fn is_error(call: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use full_moon::ast::Expression;
 
     /// Returns line and message of the warning about the function in `text`.
     fn told(text: &str) -> Option<(usize, String)> {

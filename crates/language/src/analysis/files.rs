@@ -10,7 +10,6 @@ use super::calls::CallCheck;
 use super::inference::Inference;
 use super::script::STACK;
 use burgeon_base::error::Error;
-use burgeon_base::warning::Warning;
 use burgeon_kit::Registry;
 
 /// A file whose calls are checked.
@@ -32,22 +31,16 @@ struct FileChecks<'a> {
     /// Inferred return values by file name; `Inference::Unknown` while a file is being checked.
     exports: RefCell<FxHashMap<&'a str, Inference<'a>>>,
     problems: RefCell<Vec<Error>>,
-    warnings: RefCell<Vec<Warning>>,
 }
 
-/// Returns the problems in the calls of `files`, and warnings about their rules. `registry` must include the object types that the scripts declare.
-pub fn call_problems(files: &[CheckedFile], registry: &Registry) -> (Vec<Error>, Vec<Warning>) {
+/// Returns the problems in the calls of `files`. `registry` must include the object types that the scripts declare.
+pub fn call_problems(files: &[CheckedFile], registry: &Registry) -> Vec<Error> {
     std::thread::scope(|scope| {
         let check = || {
-            let checks = FileChecks {
-                files,
-                registry,
-                exports: RefCell::default(),
-                problems: RefCell::default(),
-                warnings: RefCell::default(),
-            };
+            let checks =
+                FileChecks { files, registry, exports: RefCell::default(), problems: RefCell::default() };
             files.iter().for_each(|file| drop(checks.exports(file)));
-            (checks.problems.into_inner(), checks.warnings.into_inner())
+            checks.problems.into_inner()
         };
         let thread = std::thread::Builder::new().stack_size(STACK).spawn_scoped(scope, check);
         // If the thread cannot start, the check is skipped. The script can still run.
@@ -67,7 +60,6 @@ impl<'a> FileChecks<'a> {
         check.package = file.package;
         let found = check.file(file.ast);
         self.problems.borrow_mut().append(&mut check.problems);
-        self.warnings.borrow_mut().append(&mut check.warnings);
         self.exports.borrow_mut().insert(file.name, found.clone());
         found
     }

@@ -7,6 +7,7 @@ use super::calls::{CallCheck, expressions_of, field_named};
 use super::inference::Inference;
 use super::syntax::text_of;
 use super::walk::FunctionRole;
+use crate::slips::remedy_of_system_method;
 use crate::{ArgumentList, Literal, Name, NameKind, SYSTEM, names};
 use burgeon_base::error::Error;
 use burgeon_kit::Construct;
@@ -173,7 +174,11 @@ impl<'a> CallCheck<'a, '_> {
                     let known = SYSTEM.part_names();
                     let message = format!("unknown method `{text}` of a system");
                     let error = Error::not_found("method", &text, known.iter().copied(), message);
-                    self.problem(name, error.help(format!("it has {}", known.join(", "))));
+                    let error = match remedy_of_system_method(&text) {
+                        Some(remedy) => error.rather_help(remedy),
+                        None => error.help(format!("it has {}", known.join(", "))),
+                    };
+                    self.problem(name, error);
                     return Inference::Unknown;
                 };
                 let forms = ArgumentList::of_all(&method.forms);

@@ -6,6 +6,7 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::Duration;
 
 use super::doubtful::doubtful_calls;
+use super::endings::forgotten_returns;
 use super::globals::Globals;
 use super::truncated::truncated_calls;
 use super::walk::{Facts, QueryCall, Walk};
@@ -235,6 +236,7 @@ fn read(file: &str, text: &str, compile: Compile, globals: &Receiver<Globals>) -
     let packages = package_names(&ast);
     let mut doubtful = doubtful_calls(file, text, &ast);
     doubtful.extend(truncated_calls(file, text, &ast));
+    doubtful.extend(forgotten_returns(file, text, &ast));
     let guards = guards.into_iter().filter_map(|(line, text)| Some((line, text?))).collect();
     let signatures = signatures.into_iter().filter_map(|(line, form)| Some((line, form?))).collect();
     let ast = globals.checks_calls.then(|| Arc::new(ast));

@@ -8,6 +8,6 @@ mod names;
 mod syntax;
 mod values;
 
-pub use names::remedy_of_name;
+pub use names::{remedy_of_name, remedy_of_system_method};
 pub use syntax::explain_syntax;
 pub use values::remedy_of_value;

@@ -47,8 +47,14 @@ pub fn remedy_of_name(name: &str) -> Option<&'static str> {
         "game" | "workspace" | "Instance" | "script" | "Enum" => {
             "make the model with systems and objects, and export it: burgeon run script.lua -o model.glb"
         }
+        "box" | "cube" | "Box" | "Cube" => {
+            "write cuboid(x, y, z), which is a shape, and draw it in an interpretation: this:shape(solid)"
+        }
+        "save" | "export" | "write" | "render" | "show" | "draw" => {
+            "leave it out: the command writes the model, burgeon run script.lua -o model.glb"
+        }
         "translate" | "rotate" | "union" | "difference" | "intersection" | "hull" | "linear_extrude"
-        | "cube" | "cylinder" | "polygon" | "children" | "minkowski" => {
+        | "children" | "minkowski" => {
             "draw in an interpretation by methods of its object: this:shift(1, 0):extrude(2) of an extruder"
         }
         "Axiom" | "axiom" => "write system:axiom(F(1))",
@@ -59,6 +65,35 @@ pub fn remedy_of_name(name: &str) -> Option<&'static str> {
         "np" | "numpy" => "write math and table functions; lists are tables: { 1, 2 }",
         "new" => "call the constructor without new: turtle({ width = 0.1 })",
         "this" => "give the function the parameter this: function(this, x)",
+        _ => return None,
+    })
+}
+
+/// Returns the remedy for a method or field that systems and derived systems do not have, if it is known from another program.
+///
+/// ```
+/// use burgeon_language::slips::remedy_of_system_method;
+///
+/// assert_eq!(remedy_of_system_method("iterate"), Some("write system:derive(5)"));
+/// assert_eq!(remedy_of_system_method("rule"), None);
+/// ```
+pub fn remedy_of_system_method(name: &str) -> Option<&'static str> {
+    Some(match name {
+        "save" | "export" | "write" | "render" | "draw" | "show" | "plot" | "display" | "view" => {
+            "leave it out: the command writes the model of what is derived, burgeon run script.lua -o model.glb"
+        }
+        "iterate" | "iterations" | "step" | "steps" | "run" | "evolve" | "generate" | "grow" | "expand"
+        | "rewrite" | "execute" | "n" | "depth" | "derivation_length" => "write system:derive(5)",
+        "start" | "seed_axiom" | "initial" | "begin" | "word" => "write system:axiom(F(1))",
+        "rules" | "add_rule" | "addRule" | "production" | "productions" | "replace" | "on" => {
+            "write system:rule(\"A(n)\", function(this, n) return ... end)"
+        }
+        "homomorphism" | "interpretation" | "turtle" | "visualize" => {
+            "write system:interpret(\"A(n)\", function(this, n) ... end)"
+        }
+        "angle" | "length" | "width" | "delta" => {
+            "give it to the object: lsystem({ object = turtle({ angle = 25 }) })"
+        }
         _ => return None,
     })
 }

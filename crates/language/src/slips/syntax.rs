@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use burgeon_base::error::Error;
+use burgeon_base::error::{Error, SourcePlace};
 
 use super::blocks::find_unclosed;
 use super::code::{code_lines, names_of};
@@ -38,6 +38,17 @@ pub fn explain_syntax(error: Error, text: &str) -> Error {
         .or_else(|| remedy_for_word(before, &message).map(str::to_owned))
         .or_else(|| remedy_for_bracket(&message))
         .or_else(|| remedy_for_token(&message));
+    // The end of the script is that of its last line, where something is missing.
+    let error = match (error.place(), lines.iter().rposition(|line| !line.trim().is_empty())) {
+        (Some(place), Some(last))
+            if here.trim().is_empty() && line > last + 1 && message.contains("got <eof>") =>
+        {
+            let (place, end) =
+                (SourcePlace::new(&place.file, last + 1), lines[last].trim_end().chars().count());
+            error.rather_at(Some(place)).in_columns(end.saturating_sub(1)..end)
+        }
+        _ => error,
+    };
     let error = sign_columns(here).into_iter().fold(error, Error::in_columns);
     match remedy {
         Some(remedy) => error.help(remedy),
@@ -131,7 +142,8 @@ fn remedy_for_word(code: &str, message: &str) -> Option<&'static str> {
     let first = names.first().map_or("", |(_, name)| *name);
     let second = names.get(1).map_or("", |(_, name)| *name);
     let is_loop = matches!(first, "for" | "while");
-    let ends_with_colon = code.trim_end().ends_with(':');
+    let is_open = !has("then") && !has("do");
+    let has_colon = code.trim_end().ends_with(':') || is_open && code.contains(": ");
     let remedy = match first {
         "import" | "from" | "using" | "include" | "use" => {
             "load a file of the folder with local name = require(\"name\"); libraries such as math need no line"
@@ -151,8 +163,8 @@ fn remedy_for_word(code: &str, message: &str) -> Option<&'static str> {
         "for" if code.contains('(') && code.contains(';') => "write for i = 1, 5 do ... end",
         "foreach" => "write for _, value in list do ... end",
         "else" if second == "if" && message.contains("end") => "write elseif, or one end more",
-        "if" | "elseif" | "else" if ends_with_colon => "write if a then ... end, without a colon",
-        "for" | "while" if ends_with_colon => {
+        "if" | "elseif" | "else" if has_colon => "write if a then ... end, without a colon",
+        "for" | "while" if has_colon => {
             "write for i = 1, 5 do ... end or while a do ... end, without a colon"
         }
         _ => return None,
@@ -184,6 +196,13 @@ fn remedy_for_message(message: &str, here: &str, before: &str) -> Option<&'stati
         || here.contains(") {") && here.contains("function")
     {
         return Some("write function(x) ... end: bodies have no braces");
+    }
+    if message.starts_with("Expected ',' after table") {
+        return Some("write a comma between two fields: { a = 1, b = 2 }");
+    }
+    let is_end_due = message.starts_with("Expected 'end'") || message.starts_with("Expected <eof>");
+    if is_end_due && here.trim_start().starts_with("return") {
+        return Some("write a comma between two values: return F(1), F(2)");
     }
     if message.contains("Expected 'end'") && before.starts_with("return") {
         return Some("put return last in its block: what follows it would never run");

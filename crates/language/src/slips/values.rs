@@ -10,12 +10,17 @@
 /// ```
 pub fn remedy_of_value(message: &str) -> Option<&'static str> {
     let starts = |beginning: &str| message.starts_with(beginning);
-    Some(if starts("attempt to perform arithmetic (add)") && message.contains("string") {
+    let is_operation = starts("attempt to perform arithmetic") || starts("attempt to concatenate");
+    Some(if is_operation && message.contains("module") {
+        "write modules one after another: return F(1), F(2)"
+    } else if starts("attempt to perform arithmetic (add)") && message.contains("string") {
         "join texts with two dots, \"n is \" .. n, or write `n is {n}`"
     } else if starts("attempt to perform arithmetic") && message.contains("nil") {
         "give the value a number before: one side is nil"
     } else if starts("attempt to perform arithmetic") && message.contains("function") {
         "call the function with parentheses: f(x)"
+    } else if starts("attempt to perform arithmetic") && message.contains("table") {
+        "write numbers, such as list[1]; modules and branches stand one after another: F(1), { F(2) }"
     } else if starts("attempt to perform arithmetic") && message.contains("object") {
         "objects have methods in place of operators: a:union(b) joins solids, and shape({ a, b }) is both shapes as one"
     } else if starts("attempt to index function with") {
@@ -23,7 +28,8 @@ pub fn remedy_of_value(message: &str) -> Option<&'static str> {
     } else if starts("attempt to index nil with") {
         "check that the value exists before one of its fields is read: nothing was assigned to it, or a list is shorter"
     } else if starts("attempt to call a nil value") {
-        "check the spelling of the function, and whether it is called with a colon as a method"
+        "check the spelling of the function, and whether it is called with a colon as a method; lists have no methods: \
+         table.insert(list, value)"
     } else if starts("attempt to call a table value") || starts("attempt to call a number value") {
         "write an operator or a comma between the two values: only functions are called"
     } else if starts("attempt to concatenate nil") {

@@ -12,5 +12,6 @@ garden:interpret("Rain", function()
 end)
 garden:rule("Root", function(this)
   print(ground:taken(this:position()), ground:amount(this:position()), ground:total())
+  return
 end)
 garden:derive(3)

@@ -97,10 +97,19 @@ pub(crate) fn image(across: usize, colors: impl Fn(usize) -> Vec<[f32; 3]> + Syn
 pub(crate) fn blend(points: &[GroundPoint<'_>], covers: &[GroundCover]) -> Vec<[f32; 3]> {
     let lowest = covers.first().map_or([0.25, 0.25, 0.2], |cover| [0, 1, 2].map(|at| cover.color.0[at]));
     let mut colors = vec![lowest; points.len()];
-    for (number, cover) in (0..).zip(covers).skip(1) {
-        for (color, strength) in colors.iter_mut().zip(cover.on.along(points, number)) {
+    // From the top down, because what an opaque cover hides needs no noise.
+    let mut hidden = vec![false; points.len()];
+    let mut amounts: Vec<Vec<f64>> = Vec::with_capacity(covers.len());
+    for (number, cover) in covers.iter().enumerate().skip(1).rev() {
+        let mut amount = cover.on.along(points, number as u64, &hidden);
+        amount.iter_mut().for_each(|amount| *amount *= cover.amount);
+        hidden.iter_mut().zip(&amount).for_each(|(hidden, amount)| *hidden |= *amount >= 1.0);
+        amounts.push(amount);
+    }
+    for (cover, amounts) in covers.iter().skip(1).zip(amounts.iter().rev()) {
+        for (color, amount) in colors.iter_mut().zip(amounts) {
             #[allow(clippy::cast_possible_truncation, reason = "colours are f32")]
-            let amount = (strength * cover.amount) as f32;
+            let amount = *amount as f32;
             for (at, into) in color.iter_mut().enumerate() {
                 *into += (cover.color.0[at] - *into) * amount;
             }

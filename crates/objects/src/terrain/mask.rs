@@ -190,13 +190,23 @@ impl Mask {
 
     /// Returns the strength (0 to 1) of the mask at a point. Masks with a different `seed` have different patches.
     pub(crate) fn at(&self, point: &GroundPoint<'_>, seed: u64) -> f64 {
-        self.along(slice::from_ref(point), seed).first().copied().unwrap_or(0.0)
+        self.along(slice::from_ref(point), seed, &[]).first().copied().unwrap_or(0.0)
     }
 
-    /// Returns the strength (0 to 1) of the mask at each of `points`. Points in a row from west to east are faster than single ones.
-    pub(crate) fn along(&self, points: &[GroundPoint<'_>], seed: u64) -> Vec<f64> {
+    /// Returns the strength (0 to 1) of the mask at each of `points`; 0 for those that are `covered`, which may be fewer. Points in a
+    /// row from west to east are faster than single ones.
+    pub(crate) fn along(&self, points: &[GroundPoint<'_>], seed: u64, covered: &[bool]) -> Vec<f64> {
         let fades: Vec<Fade> = self.fades().collect();
-        let effects: Vec<NoiseEffect> = points.iter().map(|point| self.noise_effect(point, &fades)).collect();
+        let covered = covered.iter().copied().chain(std::iter::repeat(false));
+        let effects: Vec<NoiseEffect> = points
+            .iter()
+            .zip(covered)
+            .map(
+                |(point, covered)| {
+                    if covered { NoiseEffect::Hidden } else { self.noise_effect(point, &fades) }
+                },
+            )
+            .collect();
         let mut strengths = Vec::with_capacity(points.len());
         for run in effects.chunk_by(|a, b| a == b) {
             let points = &points[strengths.len()..][..run.len()];

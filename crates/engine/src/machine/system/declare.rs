@@ -77,6 +77,12 @@ impl SystemDeclaration {
             return Err(Error::argument("the first argument of a rule must be a pattern").help(usage));
         };
         let text = text.to_string_lossy();
+        if let ([_], Some((pattern, successor))) = (&*arguments, split_rule(&text)) {
+            return Err(Error::argument(format!(
+                "{method} takes the pattern and the successor, not one string"
+            ))
+            .help(format!("write system:{method}({pattern:?}, {successor:?})")));
+        }
         if self.rules.len() == MOST_RULES {
             return Err(Error::limit(
                 Limit::Size,
@@ -280,6 +286,13 @@ fn is_branch(library: &Library, table: &Table) -> Result<bool> {
         return Ok(false);
     }
     Ok(!prelude.is_module.call::<bool>(table).map_err(|error| machine.translate(error))?)
+}
+
+/// Splits a rule as books print it, `F -> FF` or `F = FF`.
+fn split_rule(text: &str) -> Option<(&str, &str)> {
+    let arrow = ["-->", "->", "\u{2192}", "=>", ":=", "="].into_iter().find(|arrow| text.contains(arrow))?;
+    let (pattern, successor) = text.split_once(arrow)?;
+    Some((pattern.trim(), successor.trim())).filter(|(pattern, _)| !pattern.is_empty())
 }
 
 /// Returns the warning for a rule that returns a table that it has filled, instead of the modules in it.

@@ -16,6 +16,7 @@ use crate::machine::{DerivationRequest, Machine};
 use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_kit::{Object, Value};
+use burgeon_language::slips::remedy_of_system_method;
 use burgeon_language::{LSYSTEM, SYSTEM};
 use burgeon_scene::CityClass;
 
@@ -132,7 +133,10 @@ impl SystemHandle {
                         "rule" | "rules" | "productions" => {
                             "write system:rule(\"A(n)\", function(this, n) return ... end)".to_owned()
                         }
-                        _ => format!("it has {}", known.join(", ")),
+                        _ => match remedy_of_system_method(other) {
+                            Some(remedy) => remedy.to_owned(),
+                            None => format!("it has {}", known.join(", ")),
+                        },
                     };
                     return Err(Error::not_found("field", other, known.iter().copied(), message).help(help));
                 }
@@ -195,7 +199,12 @@ fn prototype(library: &Library, value: LuaValue) -> Result<Arc<dyn Object>> {
     if let Some(object) = ObjectHandle::object_of(&value) {
         return Ok(object);
     }
-    let error = Error::argument("lsystem: object must be an object");
+    let given = match to_value(&value, false) {
+        Ok(Value::Text(text)) => format!(", not the string {text:?}"),
+        Ok(value) => format!(", not {}", value.describe()),
+        Err(_) => String::new(),
+    };
+    let error = Error::argument(format!("lsystem: object must be an object{given}"));
     Err(match object_of_system(&library.registry.borrow()) {
         Some(object) => error.help(format!("write {object}")),
         None => error,
@@ -299,16 +308,22 @@ impl UserData for SystemHandle {
             },
         );
         methods.add_meta_function("__newindex", |_, (_, name): (LuaValue, String)| -> mlua::Result<()> {
+            let help = match &*name {
+                "axiom" | "rule" | "interpret" | "decompose" => format!("call it: system:{name}(...)"),
+                _ => "pass object, interpret and seed to lsystem".to_owned(),
+            };
             Err(mlua::Error::external(
-                Error::script(format!("cannot assign `{name}` of a system"))
-                    .help("pass object, interpret and seed to lsystem"),
+                Error::script(format!("cannot assign `{name}` of a system")).help(help),
             ))
         });
         methods.add_meta_function("__index", |_, (_, name): (LuaValue, String)| -> mlua::Result<()> {
             let message = format!("unknown method `{name}` of a system");
             let known = SYSTEM.part_names();
             let error = Error::not_found("method", &name, known.iter().copied(), message);
-            Err(mlua::Error::external(error.help(format!("it has {}", known.join(", ")))))
+            Err(mlua::Error::external(match remedy_of_system_method(&name) {
+                Some(remedy) => error.rather_help(remedy),
+                None => error.help(format!("it has {}", known.join(", "))),
+            }))
         });
     }
 }

@@ -22,6 +22,7 @@ use burgeon_base::text::panic_message;
 use burgeon_kit::declare::as_ref;
 use burgeon_kit::{Kind, Object, ScriptObject, are_equal};
 use burgeon_language::DERIVED;
+use burgeon_language::slips::remedy_of_system_method;
 use burgeon_rewriting::FailedChains;
 
 /// Objects of a system, one per chain: read during rewriting, changed during interpretation.
@@ -285,7 +286,10 @@ impl DerivedHandle {
                 let message = format!("unknown field `{name}` of a derived system");
                 let known = DERIVED.part_names();
                 let error = Error::not_found("field", name, known.iter().copied(), message);
-                Err(mlua::Error::external(error.help(format!("it has {}", known.join(", ")))))
+                Err(mlua::Error::external(match remedy_of_system_method(name) {
+                    Some(remedy) => error.rather_help(remedy),
+                    None => error.help(format!("it has {}", known.join(", "))),
+                }))
             }
         }
     }
