@@ -3,7 +3,7 @@
 use crate::support::refused;
 
 /// Script, line of the slip, and part of the remedy.
-const SLIPS: [(&str, usize, &str); 88] = [
+const SLIPS: [(&str, usize, &str); 91] = [
     ("local a = [1, 2]", 1, "with braces: { 1, 2 }"),
     ("local a = { [1, 2], [3, 4] }", 1, "with braces: { 1, 2 }"),
     ("local a = 2 ** 3", 1, "x ^ 2"),
@@ -128,6 +128,17 @@ const SLIPS: [(&str, usize, &str); 88] = [
         5,
         "one after another",
     ),
+    (
+        "local A = module(\"A\", \"n\")\nlocal s = lsystem({ object = turtle() })\ns:axiom(A(3))\ns:rule(\"A(n)\", function(n) return F(n), A(n - 1) end)",
+        4,
+        "function(this, n",
+    ),
+    (
+        "local A = module(\"A\")\nlocal s = lsystem({ object = turtle() })\ns:axiom(A())\ns:interpret(\"A\", function(this)\n  this.color = \"red\"\nend)\ns:derive()",
+        5,
+        "this:color(\"red\")",
+    ),
+    ("local m = material({ texture = \"brick.png\" })", 1, "this:material("),
 ];
 
 #[test]

@@ -33,6 +33,7 @@ static BYTES: LazyLock<SrgbBytes> = LazyLock::new(|| {
 });
 
 /// Converts a linear component, 0 to 1, to a byte of an sRGB image (IEC 61966-2-1).
+#[inline]
 pub fn srgb_byte(linear: f32) -> u8 {
     if linear >= 1.0 {
         return 255;

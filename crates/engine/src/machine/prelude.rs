@@ -102,6 +102,8 @@ pub(crate) struct Prelude {
     /// `(object, kind, type)`: sets `this`, the name of its type, and the type itself if the script declared
     /// it.
     pub set_this: Function,
+    /// `(object, name, value)`: refuses the assignment of a field of `this`.
+    pub refuse_field: Function,
     /// `(type)`: adds a type that the script declares.
     pub script_type: Function,
     /// `(kind, methods, type, reads, changes)`: adds functions of the script to a type.
@@ -192,6 +194,7 @@ impl Prelude {
             finish: table.get("finish")?,
             at: table.get("current")?,
             set_this: table.get("set_this")?,
+            refuse_field: table.get("refuse_field")?,
             script_type: table.get("script_type")?,
             extension: table.get("extension")?,
             hooks: table.get("hooks")?,

@@ -16,6 +16,7 @@ use super::formulas::{FormulaText, condition_of, production_of};
 use super::syntax::{end_of, first_position, is_function_option, is_open, string_of, text_of};
 use super::walk::{Fact, Function, FunctionRole, Variable, Walk};
 use crate::CallForm;
+use burgeon_base::error::Error;
 use burgeon_kit::Argument;
 use burgeon_rewriting::Successors;
 
@@ -53,6 +54,11 @@ impl Walk<'_> {
                 _ => pattern,
             });
         }
+        if let (Some(Expression::String(pattern)), Some(Expression::Function(function))) =
+            (arguments.iter().next(), arguments.iter().nth(last))
+        {
+            self.check_receiver(pattern, function.body());
+        }
         for (index, argument) in arguments.iter().enumerate() {
             match argument {
                 Expression::Function(function) if index == last && index > 0 => {
@@ -83,6 +89,19 @@ impl Walk<'_> {
             }
         }
         self.rule = outer;
+    }
+
+    /// Reports a function of a rule whose first parameter has the name of a parameter of the pattern.
+    fn check_receiver(&mut self, pattern: &TokenReference, body: &FunctionBody) {
+        let Some(Parameter::Name(first)) = body.parameters().iter().next() else { return };
+        let (name, pattern) = (text_of(first), string_of(pattern).unwrap_or_default());
+        let is_part = |letter: char| letter.is_alphanumeric() || letter == '_';
+        // Names in brackets are those of parameters.
+        let mut names = pattern.split('(').skip(1).filter_map(|part| part.split(')').next());
+        if names.any(|names| names.split(|letter| !is_part(letter)).any(|known| known == name)) {
+            let message = format!("the first parameter is the object, not {name} of the module");
+            self.problem(first, Error::argument(message).help(format!("write function(this, {name}, ...)")));
+        }
     }
 
     /// Inserts the number of the line on which a string successor begins before the string.

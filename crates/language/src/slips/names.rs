@@ -57,6 +57,9 @@ pub fn remedy_of_name(name: &str) -> Option<&'static str> {
         | "children" | "minkowski" => {
             "draw in an interpretation by methods of its object: this:shift(1, 0):extrude(2) of an extruder"
         }
+        "material" => {
+            "write it as a method of an object, in an interpretation: this:material({ texture = \"brick.png\" })"
+        }
         "Axiom" | "axiom" => "write system:axiom(F(1))",
         "produce" | "nproduce" => "return the modules: return F(1), { Turn(30), F(1) }",
         "Lsystem" | "LSystem" | "lstring" | "derivation" => "write local s = lsystem({ object = turtle() })",

@@ -20,7 +20,8 @@ pub fn remedy_of_value(message: &str) -> Option<&'static str> {
     } else if starts("attempt to perform arithmetic") && message.contains("function") {
         "call the function with parentheses: f(x)"
     } else if starts("attempt to perform arithmetic") && message.contains("table") {
-        "write numbers, such as list[1]; modules and branches stand one after another: F(1), { F(2) }"
+        "write numbers, such as list[1]; modules stand one after another: F(1), F(2); the function of a rule begins with this: \
+         function(this, n)"
     } else if starts("attempt to perform arithmetic") && message.contains("object") {
         "objects have methods in place of operators: a:union(b) joins solids, and shape({ a, b }) is both shapes as one"
     } else if starts("attempt to index function with") {

@@ -369,6 +369,7 @@ impl SystemDeclaration {
                 let metatable = lua.create_table()?;
                 let methods: Table = lua.named_registry_value(&methods_key(&object.kind().name))?;
                 metatable.raw_set("__index", methods)?;
+                metatable.raw_set("__newindex", &prelude.refuse_field)?;
                 metatable.raw_set("__metatable", "this")?;
                 this.set_metatable(Some(metatable))?;
                 this.set_readonly(true);
