@@ -20,14 +20,16 @@ pub struct GroundReading<'a> {
 /// whose normals take most of the time.
 pub struct GroundReader<'a> {
     ground: &'a Ground,
-    last: Option<CellCorners>,
+    last: Option<CellCorners<'a>>,
 }
 
 /// Heights (m) and normals at the corners of a cell: north-west, north-east, south-west and south-east.
 #[derive(Debug, Clone, Copy)]
-struct CellCorners {
+struct CellCorners<'a> {
     level: u32,
     cell: (i64, i64),
+    /// Name of the symbol of the cell.
+    symbol: &'a str,
     heights: [Option<f64>; 4],
     normals: [DVec3; 4],
 }
@@ -47,7 +49,8 @@ impl<'a> GroundReader<'a> {
     pub fn at(&mut self, place: DVec2) -> Option<GroundReading<'a>> {
         let ground = self.ground;
         let (tile, cell, part) = ground.find(place)?;
-        let corners = self.corners(tile, cell);
+        self.load_corners(tile, cell);
+        let corners = self.last.as_ref()?;
         let shift = ground.finest() - tile.level();
         let height = |x: i64, y: i64| {
             let at = ((x >> shift) - cell.0) + 2 * ((y >> shift) - cell.1);
@@ -60,33 +63,35 @@ impl<'a> GroundReader<'a> {
         Some(GroundReading {
             height: ground.complete(tile, place, laid),
             normal: north.lerp(south, part.y).normalize(),
-            symbol: ground.world().name(tile.level(), tile.symbol(cell.0, cell.1)),
+            symbol: corners.symbol,
         })
     }
 
-    /// Returns the corners of a cell of `tile`, and keeps them.
-    fn corners(&mut self, tile: &Tile, cell: (i64, i64)) -> CellCorners {
-        let (level, shift) = (tile.level(), self.ground.finest() - tile.level());
-        let last = self.last.filter(|last| last.level == level && last.cell.1 == cell.1);
+    /// Keeps the corners of a cell of `tile`.
+    fn load_corners(&mut self, tile: &Tile, cell: (i64, i64)) {
+        let (ground, level) = (self.ground, tile.level());
+        let in_row = |last: &CellCorners<'_>| last.level == level && last.cell.1 == cell.1;
+        if self.last.as_ref().is_some_and(|last| last.cell.0 == cell.0 && in_row(last)) {
+            return;
+        }
+        let shift = ground.finest() - level;
         let corner = |right: i64, down: i64| {
             let (x, y) = ((cell.0 + right) << shift, (cell.1 + down) << shift);
-            (self.ground.surface_height(x, y), self.ground.normal(x, y))
+            (ground.surface_height(x, y), ground.normal(x, y))
         };
-        let all = match last {
-            Some(last) if last.cell.0 == cell.0 => return last,
-            Some(last) if last.cell.0 + 1 == cell.0 => {
+        let all = match self.last {
+            Some(last) if last.cell.0 + 1 == cell.0 && in_row(&last) => {
                 let west = |at: usize| (last.heights[at], last.normals[at]);
                 [west(1), corner(1, 0), west(3), corner(1, 1)]
             }
             _ => [corner(0, 0), corner(1, 0), corner(0, 1), corner(1, 1)],
         };
-        let corners = CellCorners {
+        self.last = Some(CellCorners {
             level,
             cell,
+            symbol: ground.world().name(level, tile.symbol(cell.0, cell.1)),
             heights: all.map(|(height, _)| height),
             normals: all.map(|(_, normal)| normal),
-        };
-        self.last = Some(corners);
-        corners
+        });
     }
 }
