@@ -164,7 +164,7 @@ fn nothing_that_remembers_gets_into_the_state_or_the_fields() {
             "changes = { go = function(self) getmetatable(self).__index = 3 end }",
             "attempt to index string with '__index'",
         ),
-        ("this.extrude = 3", "", "readonly"),
+        ("this.extrude = 3", "", "this.extrude is assigned"),
         ("rawset(this, \"extrude\", 3)", "", "readonly"),
         ("rawset(getmetatable(\"\"), \"x\", 3)", "", "table"),
         ("this:extrude(buffer.create(8))", "", "argument 1 must be a number, not a buffer"),

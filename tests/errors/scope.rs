@@ -246,11 +246,11 @@ fn a_rule_cannot_call_a_changing_method() {
       help: set fields in the constructor: turtle { width = ... }
     ");
     assert_snapshot!(refused_rules("s:interpret(\"A(x)\", function(this, x)\n  this.width = 3\nend)"), @r"
-    error: s.lua:4:3: rule A(x) (interpretation): attempt to modify a readonly table
+    error: s.lua:4:8: rule A(x) (interpretation): this.width is assigned, but methods change an object
       | this.width = 3
-      | ^^^^^^^^^^^^^^
+      |      ^^^^^
       module: A(1), step 0
-      help: the library is read-only, and while rules run, so are tables from outside the rule; create a new table, or use table.clone
+      help: write this:width(3) if it has this method
     ");
 }
 

@@ -174,11 +174,7 @@ impl<'a> CallCheck<'a, '_> {
                     let known = SYSTEM.part_names();
                     let message = format!("unknown method `{text}` of a system");
                     let error = Error::not_found("method", &text, known.iter().copied(), message);
-                    let error = match remedy_of_system_method(&text) {
-                        Some(remedy) => error.rather_help(remedy),
-                        None => error.help(format!("it has {}", known.join(", "))),
-                    };
-                    self.problem(name, error);
+                    self.problem(name, error.help(remedy_of_system_method(&text, &known)));
                     return Inference::Unknown;
                 };
                 let forms = ArgumentList::of_all(&method.forms);

@@ -72,16 +72,17 @@ pub fn remedy_of_name(name: &str) -> Option<&'static str> {
     })
 }
 
-/// Returns the remedy for a method or field that systems and derived systems do not have, if it is known from another program.
+/// Returns the remedy for a method or field that systems or derived systems do not have: what stands here for a name of another
+/// program, or the `known` names.
 ///
 /// ```
 /// use burgeon_language::slips::remedy_of_system_method;
 ///
-/// assert_eq!(remedy_of_system_method("iterate"), Some("write system:derive(5)"));
-/// assert_eq!(remedy_of_system_method("rule"), None);
+/// assert_eq!(remedy_of_system_method("iterate", &["axiom"]), "write system:derive(5)");
+/// assert_eq!(remedy_of_system_method("abc", &["axiom", "rule"]), "it has axiom, rule");
 /// ```
-pub fn remedy_of_system_method(name: &str) -> Option<&'static str> {
-    Some(match name {
+pub fn remedy_of_system_method(name: &str, known: &[&str]) -> String {
+    let remedy = match name {
         "save" | "export" | "write" | "render" | "draw" | "show" | "plot" | "display" | "view" => {
             "leave it out: the command writes the model of what is derived, burgeon run script.lua -o model.glb"
         }
@@ -97,6 +98,7 @@ pub fn remedy_of_system_method(name: &str) -> Option<&'static str> {
         "angle" | "length" | "width" | "delta" => {
             "give it to the object: lsystem({ object = turtle({ angle = 25 }) })"
         }
-        _ => return None,
-    })
+        _ => return format!("it has {}", known.join(", ")),
+    };
+    remedy.to_owned()
 }

@@ -133,10 +133,7 @@ impl SystemHandle {
                         "rule" | "rules" | "productions" => {
                             "write system:rule(\"A(n)\", function(this, n) return ... end)".to_owned()
                         }
-                        _ => match remedy_of_system_method(other) {
-                            Some(remedy) => remedy.to_owned(),
-                            None => format!("it has {}", known.join(", ")),
-                        },
+                        _ => remedy_of_system_method(other, &known),
                     };
                     return Err(Error::not_found("field", other, known.iter().copied(), message).help(help));
                 }
@@ -320,10 +317,7 @@ impl UserData for SystemHandle {
             let message = format!("unknown method `{name}` of a system");
             let known = SYSTEM.part_names();
             let error = Error::not_found("method", &name, known.iter().copied(), message);
-            Err(mlua::Error::external(match remedy_of_system_method(&name) {
-                Some(remedy) => error.rather_help(remedy),
-                None => error.help(format!("it has {}", known.join(", "))),
-            }))
+            Err(mlua::Error::external(error.help(remedy_of_system_method(&name, &known))))
         });
     }
 }

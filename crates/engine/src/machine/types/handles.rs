@@ -286,10 +286,7 @@ impl DerivedHandle {
                 let message = format!("unknown field `{name}` of a derived system");
                 let known = DERIVED.part_names();
                 let error = Error::not_found("field", name, known.iter().copied(), message);
-                Err(mlua::Error::external(match remedy_of_system_method(name) {
-                    Some(remedy) => error.rather_help(remedy),
-                    None => error.help(format!("it has {}", known.join(", "))),
-                }))
+                Err(mlua::Error::external(error.help(remedy_of_system_method(name, &known))))
             }
         }
     }
