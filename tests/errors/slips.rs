@@ -183,3 +183,19 @@ fn the_given_slips_have_a_place_and_nine_in_ten_a_remedy() {
         without.join("\n")
     );
 }
+
+#[test]
+fn a_function_with_names_that_it_does_not_use_is_no_slip() {
+    for (pattern, names) in
+        [("A(_, n)", "_, _, n"), ("A(n, _)", "_, n"), ("A(_n, m)", "_n, _, m"), ("A", "n")]
+    {
+        let script = format!(
+            "local A = module(\"A\", \"n\", \"m\")\nlocal s = lsystem({{ object = turtle() }})\ns:axiom(A(1, 2))\n\
+             s:rule(\"{pattern}\", function({names}) return F(1) end)\ns:derive(1)"
+        );
+        let output = crate::support::Folder::new()
+            .with("s.lua", &script)
+            .burgeon(&["run", "s.lua", "--strict", "-o", "s.glb"]);
+        assert_eq!(output.status, 0, "{script}\n{}", output.stderr);
+    }
+}

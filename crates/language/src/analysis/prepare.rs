@@ -98,7 +98,9 @@ impl Walk<'_> {
         let is_part = |letter: char| letter.is_alphanumeric() || letter == '_';
         // Names in brackets are those of parameters.
         let mut names = pattern.split('(').skip(1).filter_map(|part| part.split(')').next());
+        // A name that begins with an underscore is not used.
         if name != "this"
+            && !name.starts_with('_')
             && names.any(|names| names.split(|letter| !is_part(letter)).any(|known| known == name))
         {
             let message = format!("the first parameter is the object, not {name} of the module");
