@@ -14,12 +14,16 @@ after(() => browser.close());
 const open = (text, act, given) => show(browser, text, act, given);
 const camera = (page) => page.evaluate(() => window.burgeon.camera);
 
-/** Waits until the camera has arrived, and gives it. */
+/** Waits until the camera is still where `test` wants it, for at most 5 s, and gives it. */
 async function arrived(page, test) {
-  await page.waitForTimeout(450);
-  const state = await camera(page);
-  assert.ok(test(state), JSON.stringify(state));
-  return state;
+  let state = await camera(page);
+  for (let attempt = 0; attempt < 50; attempt++) {
+    await page.waitForTimeout(100);
+    const last = JSON.stringify(state);
+    state = await camera(page);
+    if (JSON.stringify(state) === last && test(state)) return state;
+  }
+  assert.fail(JSON.stringify(state));
 }
 
 const CAMERAS = `${BLOCKS}camera({ name = "street", from = { 20, -30, 2 }, to = { 0, 0, 3 }, fov = 60 })
