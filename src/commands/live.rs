@@ -7,7 +7,6 @@ use burgeon::live::{
     Editor, Live, LiveEvent, LiveTileset, PORT, Settings, TilesetProgress, TilesetSettings, Token, browse,
     has_display,
 };
-use burgeon::text::grouped;
 use burgeon::tiles::{TileFolder, TilePlan, TileStatus};
 use burgeon::{Error, Result};
 use clap::Args;
@@ -166,12 +165,9 @@ fn progress(folder: &TileFolder) -> Result<Option<TilesetProgress>> {
 /// Prints notices to standard error.
 fn tell(told: &LiveEvent) {
     match told {
-        LiveEvent::Model { triangles, modules, total } => report::eprint(&format!(
-            "{} triangles, {} modules in {}\n",
-            grouped(*triangles),
-            grouped(*modules),
-            report::time(*total)
-        )),
+        LiveEvent::Model { triangles, modules, total } => {
+            report::eprint(&format!("{} in {}\n", report::sizes(*modules, *triangles), report::time(*total)));
+        }
         LiveEvent::Failed(error) => report::error(error, false),
         LiveEvent::Warning(warning) => report::eprint(&report::warnings([warning])),
         LiveEvent::Waiting(text) | LiveEvent::Text(text) => report::eprint(&format!("{text}\n")),
