@@ -3,7 +3,7 @@
 use crate::support::refused;
 
 /// Script, line of the slip, and part of the remedy.
-const SLIPS: [(&str, usize, &str); 91] = [
+const SLIPS: [(&str, usize, &str); 92] = [
     ("local a = [1, 2]", 1, "with braces: { 1, 2 }"),
     ("local a = { [1, 2], [3, 4] }", 1, "with braces: { 1, 2 }"),
     ("local a = 2 ** 3", 1, "x ^ 2"),
@@ -137,6 +137,11 @@ const SLIPS: [(&str, usize, &str); 91] = [
         "local A = module(\"A\")\nlocal s = lsystem({ object = turtle() })\ns:axiom(A())\ns:interpret(\"A\", function(this)\n  this.color = \"red\"\nend)\ns:derive()",
         5,
         "this:color(\"red\")",
+    ),
+    (
+        "local A = module(\"A\", \"n\", \"m\")\nlocal s = lsystem({ object = turtle() })\ns:axiom(A(3, 1))\ns:rule(\"A(n, m)\", {\n  when = function(n, m) return n > 1 end,\n}, \"F\")",
+        5,
+        "function(this, n, m)",
     ),
     ("local m = material({ texture = \"brick.png\" })", 1, "this:material("),
 ];

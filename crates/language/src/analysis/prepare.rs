@@ -54,14 +54,14 @@ impl Walk<'_> {
                 _ => pattern,
             });
         }
-        if let (Some(Expression::String(pattern)), Some(Expression::Function(function))) =
-            (arguments.iter().next(), arguments.iter().nth(last))
-        {
-            self.check_receiver(pattern, function.body());
-        }
+        let pattern = match arguments.iter().next() {
+            Some(Expression::String(pattern)) => string_of(pattern).unwrap_or_default(),
+            _ => String::new(),
+        };
         for (index, argument) in arguments.iter().enumerate() {
             match argument {
                 Expression::Function(function) if index == last && index > 0 => {
+                    self.check_receiver(&pattern, function.body());
                     if role == FunctionRole::Rule {
                         self.prepare_function(argument, function.body(), role);
                     } else {
@@ -76,6 +76,7 @@ impl Walk<'_> {
                         match field {
                             Field::NameKey { key, value, .. } => match &**value {
                                 Expression::Function(function) if is_function_option(&text_of(key)) => {
+                                    self.check_receiver(&pattern, function.body());
                                     self.prepare_function(value, function.body(), FunctionRole::Guard);
                                 }
                                 value => self.expression(value),
@@ -92,9 +93,9 @@ impl Walk<'_> {
     }
 
     /// Reports a function of a rule whose first parameter has the name of a parameter of the pattern.
-    fn check_receiver(&mut self, pattern: &TokenReference, body: &FunctionBody) {
+    fn check_receiver(&mut self, pattern: &str, body: &FunctionBody) {
         let Some(Parameter::Name(first)) = body.parameters().iter().next() else { return };
-        let (name, pattern) = (text_of(first), string_of(pattern).unwrap_or_default());
+        let name = text_of(first);
         let is_part = |letter: char| letter.is_alphanumeric() || letter == '_';
         // Names in brackets are those of parameters.
         let mut names = pattern.split('(').skip(1).filter_map(|part| part.split(')').next());
@@ -104,7 +105,9 @@ impl Walk<'_> {
             && names.any(|names| names.split(|letter| !is_part(letter)).any(|known| known == name))
         {
             let message = format!("the first parameter is the object, not {name} of the module");
-            self.problem(first, Error::argument(message).help(format!("write function(this, {name}, ...)")));
+            let parameters = body.parameters().to_string();
+            let help = format!("write function(this, {})", parameters.trim());
+            self.problem(first, Error::argument(message).help(help));
         }
     }
 

@@ -72,8 +72,8 @@ pub fn remedy_of_name(name: &str) -> Option<&'static str> {
     })
 }
 
-/// Returns the remedy for a method or field that systems or derived systems do not have: what stands here for a name of another
-/// program, or the `known` names.
+/// Returns the remedy for a method or field that a system, its options or a derived system do not have: what to write for a name of
+/// another program, or the `known` names.
 ///
 /// ```
 /// use burgeon_language::slips::remedy_of_system_method;
@@ -88,8 +88,8 @@ pub fn remedy_of_system_method(name: &str, known: &[&str]) -> String {
         }
         "iterate" | "iterations" | "step" | "steps" | "run" | "evolve" | "generate" | "grow" | "expand"
         | "rewrite" | "execute" | "n" | "depth" | "derivation_length" => "write system:derive(5)",
-        "start" | "seed_axiom" | "initial" | "begin" | "word" => "write system:axiom(F(1))",
-        "rules" | "add_rule" | "addRule" | "production" | "productions" | "replace" | "on" => {
+        "axiom" | "start" | "seed_axiom" | "initial" | "begin" | "word" => "write system:axiom(F(1))",
+        "rule" | "rules" | "add_rule" | "addRule" | "production" | "productions" | "replace" | "on" => {
             "write system:rule(\"A(n)\", function(this, n) return ... end)"
         }
         "homomorphism" | "interpretation" | "turtle" | "visualize" => {

@@ -96,25 +96,22 @@ pub(crate) fn image(across: usize, colors: impl Fn(usize) -> Vec<[f32; 3]> + Syn
 /// Returns the colour of each of `points` under `covers`.
 pub(crate) fn blend(points: &[GroundPoint<'_>], covers: &[GroundCover]) -> Vec<[f32; 3]> {
     let lowest = covers.first().map_or([0.25, 0.25, 0.2], |cover| [0, 1, 2].map(|at| cover.color.0[at]));
-    let mut colors = vec![lowest; points.len()];
+    let mut colors = vec![[0.0; 3]; points.len()];
+    let add = |color: &mut [f32; 3], part: [f32; 3], amount: f32| {
+        color.iter_mut().zip(part).for_each(|(into, part)| *into += part * amount);
+    };
     // From the top down, because what an opaque cover hides needs no noise.
-    let mut hidden = vec![false; points.len()];
-    let mut amounts: Vec<Vec<f64>> = Vec::with_capacity(covers.len());
+    let mut visible = vec![1.0; points.len()];
     for (number, cover) in covers.iter().enumerate().skip(1).rev() {
-        let mut amount = cover.on.along(points, number as u64, &hidden);
-        amount.iter_mut().for_each(|amount| *amount *= cover.amount);
-        hidden.iter_mut().zip(&amount).for_each(|(hidden, amount)| *hidden |= *amount >= 1.0);
-        amounts.push(amount);
-    }
-    for (cover, amounts) in covers.iter().skip(1).zip(amounts.iter().rev()) {
-        for (color, amount) in colors.iter_mut().zip(amounts) {
+        let strengths = cover.on.strengths(points, number as u64, &visible);
+        for ((color, visible), strength) in colors.iter_mut().zip(&mut visible).zip(strengths) {
             #[allow(clippy::cast_possible_truncation, reason = "colours are f32")]
-            let amount = *amount as f32;
-            for (at, into) in color.iter_mut().enumerate() {
-                *into += (cover.color.0[at] - *into) * amount;
-            }
+            let amount = *visible * (strength * cover.amount) as f32;
+            add(color, [0, 1, 2].map(|at| cover.color.0[at]), amount);
+            *visible -= amount;
         }
     }
+    colors.iter_mut().zip(visible).for_each(|(color, visible)| add(color, lowest, visible));
     colors
 }
 

@@ -130,7 +130,7 @@ struct Fade {
 
 impl Fade {
     /// Returns the position of a point along the fade-in: 0 at its start, 1 at its end.
-    fn along(&self, point: &GroundPoint<'_>) -> f64 {
+    fn position(&self, point: &GroundPoint<'_>) -> f64 {
         let value = point.properties()[self.property];
         if self.from == self.to {
             return f64::from(u8::from(value >= self.from));
@@ -190,22 +190,20 @@ impl Mask {
 
     /// Returns the strength (0 to 1) of the mask at a point. Masks with a different `seed` have different patches.
     pub(crate) fn at(&self, point: &GroundPoint<'_>, seed: u64) -> f64 {
-        self.along(slice::from_ref(point), seed, &[]).first().copied().unwrap_or(0.0)
+        self.strengths(slice::from_ref(point), seed, &[1.0]).first().copied().unwrap_or(0.0)
     }
 
-    /// Returns the strength (0 to 1) of the mask at each of `points`; 0 for those that are `covered`, which may be fewer. Points in a
-    /// row from west to east are faster than single ones.
-    pub(crate) fn along(&self, points: &[GroundPoint<'_>], seed: u64, covered: &[bool]) -> Vec<f64> {
+    /// Returns the strength (0 to 1) of the mask at each of `points`; 0 for those that are not `visible`, for which nothing is
+    /// computed. Points in a row from west to east are faster than single ones.
+    pub(crate) fn strengths(&self, points: &[GroundPoint<'_>], seed: u64, visible: &[f32]) -> Vec<f64> {
         let fades: Vec<Fade> = self.fades().collect();
-        let covered = covered.iter().copied().chain(std::iter::repeat(false));
         let effects: Vec<NoiseEffect> = points
             .iter()
-            .zip(covered)
-            .map(
-                |(point, covered)| {
-                    if covered { NoiseEffect::Hidden } else { self.noise_effect(point, &fades) }
-                },
-            )
+            .zip(visible)
+            .map(|(point, visible)| match *visible > 0.0 {
+                true => self.noise_effect(point, &fades),
+                false => NoiseEffect::Hidden,
+            })
             .collect();
         let mut strengths = Vec::with_capacity(points.len());
         for run in effects.chunk_by(|a, b| a == b) {
@@ -233,7 +231,7 @@ impl Mask {
         if !self.symbols.is_empty() && !self.symbols.iter().any(here) {
             return NoiseEffect::Hidden;
         }
-        let least = fades.iter().map(|fade| fade.along(point)).fold(f64::INFINITY, f64::min);
+        let least = fades.iter().map(|fade| fade.position(point)).fold(f64::INFINITY, f64::min);
         if least <= -self.noise {
             NoiseEffect::Hidden
         } else if self.patches > 0.0 || (self.noise > 0.0 && least < 1.0 + self.noise) {
@@ -266,7 +264,7 @@ impl Mask {
 
 /// Returns the product of `fades` at a point, shifted by `shift`.
 fn strength(fades: &[Fade], point: &GroundPoint<'_>, shift: f64) -> f64 {
-    fades.iter().map(|fade| ease(fade.along(point) + shift)).product()
+    fades.iter().map(|fade| ease(fade.position(point) + shift)).product()
 }
 
 fn ease(along: f64) -> f64 {

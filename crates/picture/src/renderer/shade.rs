@@ -237,7 +237,7 @@ impl Light<'_> {
         let footprint = self.camera.footprint(surface.position).max(0.0);
         let origin = surface.rounded + surface.plane * (2e-5 + 0.25 * footprint);
         match tracer.meet(origin, direction) {
-            Some(point) => self.mirrored(&point, direction, footprint * (1.0 + point.distance), spin),
+            Some(point) => self.light_of_point(&point, direction, footprint * (1.0 + point.distance), spin),
             None => {
                 self.sky.reflection(direction, surface.roughness) * self.strength(surface.position, direction)
             }
@@ -246,7 +246,7 @@ impl Light<'_> {
 
     /// Returns the light that a mirrored `point` sends back along `direction`. A pixel covers this `footprint` of it (stage
     /// units).
-    fn mirrored(&self, point: &MirroredPoint, direction: Vec3A, footprint: f32, spin: Vec2) -> Vec3 {
+    fn light_of_point(&self, point: &MirroredPoint, direction: Vec3A, footprint: f32, spin: Vec2) -> Vec3 {
         let number = point.draw.part.material;
         let material = &self.stage.materials[number];
         let [red, green, blue, _] = material.base_color;

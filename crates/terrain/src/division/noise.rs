@@ -13,7 +13,7 @@ fn add_noise(places: &[DVec2], scale: f64, strength: f64, seed: u64, sums: &mut 
         let [near_left, near_right, far_left, far_right] =
             [at(0.0, 0.0), at(1.0, 0.0), at(0.0, 1.0), at(1.0, 1.0)];
         let (near, far) = (near_right - near_left, far_right - far_left);
-        let down = ease(begin.y - cell.y);
+        let down = quintic(begin.y - cell.y);
         let is_beside = |other: &DVec2| {
             let x = other.x * scale;
             x >= cell.x && x < cell.x + 1.0 && other.y.to_bits() == place.y.to_bits()
@@ -21,7 +21,7 @@ fn add_noise(places: &[DVec2], scale: f64, strength: f64, seed: u64, sums: &mut 
         let count = 1 + places[first + 1..].iter().take_while(|other| is_beside(other)).count();
         let row = first..first + count;
         for (place, sum) in places[row.clone()].iter().zip(&mut sums[row]) {
-            let right = ease(place.x * scale - cell.x);
+            let right = quintic(place.x * scale - cell.x);
             let (near, far) = (near_left + near * right, far_left + far * right);
             *sum += (near + (far - near) * down) * strength;
         }
@@ -31,7 +31,7 @@ fn add_noise(places: &[DVec2], scale: f64, strength: f64, seed: u64, sums: &mut 
 
 /// Returns the quintic interpolation between 0 and 1, which has continuous curvature at the borders of cells.
 #[inline]
-fn ease(part: f64) -> f64 {
+fn quintic(part: f64) -> f64 {
     part * part * part * (part * (part * 6.0 - 15.0) + 10.0)
 }
 
@@ -86,7 +86,7 @@ pub fn octaves_along(places: &[DVec2], octaves: u32, seed: u64, noise: &mut [f64
 fn noise_around(place: DVec3, seed: u64) -> f64 {
     let cell = place.floor();
     let part = place - cell;
-    let [right, down, up] = part.to_array().map(ease);
+    let [right, down, up] = part.to_array().map(quintic);
     let level = |up: f64| {
         // Each level of corners has a different seed.
         let seed = seed ^ (cell.z + up + 0.0).to_bits().wrapping_mul(0xD6E8_FEB8_6659_FD93);

@@ -128,13 +128,7 @@ impl SystemHandle {
                 (other, _) => {
                     let known = LSYSTEM.part_names();
                     let message = format!("unknown field `{other}` in lsystem");
-                    let help = match other {
-                        "axiom" => "write system:axiom(F(1))".to_owned(),
-                        "rule" | "rules" | "productions" => {
-                            "write system:rule(\"A(n)\", function(this, n) return ... end)".to_owned()
-                        }
-                        _ => remedy_of_system_method(other, &known),
-                    };
+                    let help = remedy_of_system_method(other, &known);
                     return Err(Error::not_found("field", other, known.iter().copied(), message).help(help));
                 }
             }
